@@ -76,7 +76,7 @@ traceScene(const Options& options, const Arguments& arguments, Report& report)
   pcl_uvol::RayTracer tracer;
   tracer.setScene(file.scene);
   tracer.settings() = file.settings;
-  arguments.rays.apply(options, tracer.settings());
+  arguments.rays.apply(options, arguments.view, tracer.settings());
   tracer.setSupersampling(options.given("supersample")
                               ? arguments.view.getRaySupersampling()
                               : file.supersampling);

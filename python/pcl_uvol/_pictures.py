@@ -223,8 +223,8 @@ class Drawable:
     def raytrace(self, *, color="auto", colormap="auto", range=None, log=False, bar=True, size=(1024, 1024),
                  view="iso", eye=None, at=None, up=None, fov=30.0, parallel=False, zoom=1.0, background="white", surface_color=None,
                  exaggerate=None, lights=None, material=None, supersample=0, depth=4, shadows=True, light_samples=16,
-                 occlusion=0, occlusion_distance=0.0, reflect=0.0, transparent=0.0, index=1.0, splats=None, ticks=False,
-                 box=False, triad=False, scale_bar=False, unit="", title="", views=(), threads=0, progress=None):
+                 occlusion=0, occlusion_distance=0.0, reflect=0.0, transparent=0.0, index=1.0, culling=False, splats=None,
+                 ticks=False, box=False, triad=False, scale_bar=False, unit="", title="", views=(), threads=0, progress=None):
         """Draw the points by ray tracing of splats (thesis 4.2): shadows, mirrors, glass.
 
         Parameters
@@ -263,7 +263,7 @@ class Drawable:
                     **_figure(ticks, box, triad, scale_bar, unit, title, views))
         rays = dict(depth=depth, shadows=shadows, light_samples=light_samples, occlusion=occlusion,
                     occlusion_distance=occlusion_distance, reflect=reflect, transparent=transparent, index=index,
-                    splats=None if splats is None else _parameters.mapping(splats, "splats"))
+                    culling=culling, splats=None if splats is None else _parameters.mapping(splats, "splats"))
         return self._draw(look, _parameters.to_json(rays), threads, progress)
 
     def orbit(self, frames, *, raytraced=False, **options):
@@ -382,7 +382,7 @@ def _draw_frame(painter, frame, progress):
 @_parameters.with_proposals
 def raytrace(scene, *, folder="", size=None, view=None, eye=None, at=None, up=None, fov=None, parallel=False, zoom=1.0, turn=0.0,
              background=None, lights=None, supersample=None, depth=None, shadows=None, light_samples=None,
-             occlusion=None, occlusion_distance=None, threads=0, progress=None):
+             occlusion=None, occlusion_distance=None, culling=None, threads=0, progress=None):
     """Draw a scene of uvol_raytrace: surfaces of several files with their materials,
     lights and a camera.
 
@@ -395,7 +395,7 @@ def raytrace(scene, *, folder="", size=None, view=None, eye=None, at=None, up=No
     turn : float
         Degrees that the camera goes around the place that it looks at, counter-clockwise
         as seen from above: the frames of a full turn have those of `np.arange(0, 360, 10)`.
-    size, view, eye, at, up, fov, parallel, zoom, background, lights, supersample, depth, shadows, light_samples, occlusion, occlusion_distance
+    size, view, eye, at, up, fov, parallel, zoom, background, lights, supersample, depth, shadows, light_samples, occlusion, occlusion_distance, culling
         As those of `Surface.raytrace`, instead of what the scene says; the camera is
         that of the scene unless `view` is given; eye, at, up and fov change it one by one.
     threads, progress
@@ -420,7 +420,7 @@ def raytrace(scene, *, folder="", size=None, view=None, eye=None, at=None, up=No
     from . import _charts
     asked = dict(size=size, view=view, eye=eye, fov=fov, background=background, lights=lights, supersample=supersample)
     rays = dict(depth=depth, shadows=shadows, light_samples=light_samples, occlusion=occlusion,
-                occlusion_distance=occlusion_distance)
+                occlusion_distance=occlusion_distance, culling=culling)
     given = {name for name, value in {**asked, **rays}.items() if value is not None}
     look = look_of(size or (1024, 1024), view or "iso", eye, at, up, 30.0 if fov is None else fov, parallel, zoom,
                    "white" if background is None else background, supersample or 0)

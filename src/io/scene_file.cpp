@@ -87,8 +87,10 @@ addClouds(const std::vector<CloudItem>& items,
   const Eigen::Vector3d origin = findSceneOrigin(looks, clouds);
   for (std::size_t i = 0; i < items.size(); ++i) {
     io::callAt(items[i].place, [&] { placeCloud(looks[i], origin, clouds[i]); });
-    file.scene.splats.push_back(
-        {clouds[i].splats, std::move(clouds[i].colors), looks[i].material});
+    file.scene.splats.push_back({clouds[i].splats,
+                                 std::move(clouds[i].colors),
+                                 looks[i].material,
+                                 clouds[i].two_sided});
   }
   file.origin = {origin.x(), origin.y(), origin.z()};
 }

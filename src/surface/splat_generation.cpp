@@ -246,6 +246,7 @@ detail::generateSplats(const CloudView& cloud,
   for (std::uint32_t i = 0; i < accepted.size(); ++i)
     splat_of[accepted[i].sample] = i;
   Splats splats;
+  splats.two_sided = points.two_sided;
   splats.cloud.reserve(accepted.size());
   for (std::uint32_t sample = 0; sample < splat_of.size(); ++sample) {
     if (splat_of[sample] == none)

@@ -35,6 +35,7 @@ Splats
 takeDrawable(Splats&& splats, Report& report)
 {
   Splats drawable;
+  drawable.two_sided = splats.two_sided;
   for (std::size_t i = 0; i < splats.cloud.size(); ++i)
     if (isDrawable(splats.cloud[i])) {
       drawable.cloud.push_back(splats.cloud[i]);

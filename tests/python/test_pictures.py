@@ -126,9 +126,9 @@ def test_uvol_render_writes_the_same_page(tmp_path, run_tool, sphere, options, a
 def test_uvol_raytrace_draws_the_same(tmp_path, run_tool, sphere):
     sphere.save(tmp_path / "in.ply")
     run_tool("uvol_raytrace", "in.ply", "tool.png", "-size", "160x128", "-color", "r", "-reflect", "0.3",
-             "-occlusion-rays", "4", "-delta", "0.001", "-background", "0.1,0.2,0.3")
+             "-occlusion-rays", "4", "-delta", "0.001", "-background", "0.1,0.2,0.3", "-culling")
     picture = uvol.read(tmp_path / "in.ply").raytrace(size=(160, 128), color="r", reflect=0.3, occlusion=4,
-                                                      splats={"delta": 0.001}, background=(0.1, 0.2, 0.3))
+                                                      splats={"delta": 0.001}, background=(0.1, 0.2, 0.3), culling=True)
     picture.save(tmp_path / "module.png")
     assert pixels_of(tmp_path / "module.png") == pixels_of(tmp_path / "tool.png")
 
@@ -147,9 +147,9 @@ def test_uvol_raytrace_draws_the_same_scene(tmp_path, run_tool, sphere):
             ("own", dict(size=(80, 60), view="top", background="white", supersample=2, zoom=1.5),
              ["-size", "80x60", "-view", "top", "-background", "white", "-supersample", "2", "-zoom", "1.5"]),
             ("rays", dict(zoom=2, fov=40, up=[0, 1, 0], depth=0, shadows=False, occlusion=4, occlusion_distance=0.5,
-                          light_samples=2, lights=[[1, 0, 1]]),
+                          light_samples=2, lights=[[1, 0, 1]], culling=True),
              ["-zoom", "2", "-fov", "40", "-up", "0,1,0", "-depth", "0", "-no-shadows", "-occlusion-rays", "4",
-              "-occlusion-distance", "0.5", "-light-samples", "2", "-lights", "1,0,1"])):
+              "-occlusion-distance", "0.5", "-light-samples", "2", "-lights", "1,0,1", "-culling"])):
         run_tool("uvol_raytrace", "test.scene", f"{name}.png", *arguments)
         uvol.raytrace(tmp_path / "test.scene", **options).save(tmp_path / "module.png")
         assert pixels_of(tmp_path / "module.png") == pixels_of(tmp_path / f"{name}.png"), name

@@ -48,6 +48,90 @@ TEST(SplatTracing, TheNearerOfTwoSurfacesIsSeen)
   EXPECT_NEAR(0.0, channelAt(image, 0, 0, 1), step);
 }
 
+/** A picture of a wall, behind what looks away from the eye if that is there, over a
+ * mirror: in the light of a lamp at the eye. */
+Image
+traceWall(bool has_back, bool two_sided, bool culls)
+{
+  Scene scene;
+  scene.lights = {lightFrom({0.5, -9.0, 1.0})};
+  scene.splats.push_back(objectOf({discAt({0, 0, 0}, {0, -1, 0.2}, 3.0)}, {green}));
+  scene.splats[0].material = {};
+  if (has_back) {
+    scene.splats.push_back(objectOf({discAt({0.5, -3, 0.3}, {0, 1, 0}, 0.5),
+                                     discAt({0.6, -3.1, 0.3}, {0.1, 1, 0}, 0.5),
+                                     discAt({-0.5, -4, 1.0}, {0.2, 1, 0}, 0.3)},
+                                    {red, red, red}));
+    scene.splats[1].two_sided = two_sided;
+  }
+  scene.planes.push_back({{0, 0, -1}, {0, 0, 1}, clear(1.0, 0.0), 0.0, {}});
+  pcl_uvol::RayTracer tracer;
+  tracer.setScene(scene);
+  tracer.setCamera(looking({0, -9, 1}, {0, 0, 0}, 30.0));
+  tracer.setSize(60, 60);
+  tracer.settings().occlusion_samples = 8;
+  tracer.settings().occlusion_distance = 5.0;
+  tracer.settings().cull_back_faces = culls;
+  Image image;
+  tracer.render(image);
+  return image;
+}
+
+TEST(SplatTracing, CulledSplatsAreNotThere)
+{
+  const Image alone = traceWall(false, false, false);
+  EXPECT_TRUE(alone.color == traceWall(false, false, true).color);
+  const auto different = [&](const Image& image) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < image.color.size(); ++i)
+      count += std::abs(image.color[i] - alone.color[i]) > 1;
+    return count;
+  };
+  EXPECT_GT(different(traceWall(true, false, false)), 500u); // itself and its shadow
+  EXPECT_EQ(0u, different(traceWall(true, false, true)));
+  EXPECT_TRUE(traceWall(true, true, true).color ==
+              traceWall(true, true, false).color); // no side is its back
+}
+
+TEST(SplatTracing, ClosedSurfacesLookAsWellWithoutTheirBacks)
+{
+  const auto points = makeSphere(5000, 3);
+  const auto render = [&](double outwards, bool culls) {
+    auto turned = *points;
+    for (auto& point : turned)
+      point.getNormalVector3fMap() *= static_cast<float>(outwards);
+    pcl_uvol::SplatGeneration<pcl::PointNormal> generation;
+    generation.setInputCloud(turned.makeShared());
+    std::vector<pcl_uvol::PointSplat> splats;
+    pcl::PointCloud<pcl_uvol::PointSplat> cloud;
+    generation.compute(cloud);
+    splats.assign(cloud.begin(), cloud.end());
+    Scene scene;
+    scene.background.color = {0.0f, 0.0f, 1.0f};
+    scene.splats.push_back(objectOf(splats));
+    scene.splats[0].material = {};
+    pcl_uvol::RayTracer tracer;
+    tracer.setScene(scene);
+    tracer.setCamera(looking({0, -6, 0}, {0, 0, 0}, 25.0));
+    tracer.setSize(100, 100);
+    tracer.settings().cull_back_faces = culls;
+    tracer.setNormalPlane(true);
+    Image image;
+    tracer.render(image);
+    return image;
+  };
+  const Image whole = render(1.0, false), culled = render(1.0, true);
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < whole.color.size(); ++i)
+    different += std::abs(whole.color[i] - culled.color[i]) > 1;
+  EXPECT_LT(different, 4u * 30u); // at the outline, where splats stand out
+  // Of a hollow ball the far wall is seen, lit by the lamp in front of the near one.
+  const Image inside = render(-1.0, true);
+  const std::size_t middle = 50 * 100 + 50;
+  EXPECT_LT(inside.normal[3 * middle + 1], -0.99f); // towards the eye, at its back
+  EXPECT_GT(inside.color[4 * middle], 100);
+}
+
 TEST(SplatTracing, CracksBetweenSplatsDoNotShowTheInsideOfWhatIsBehind)
 {
   const Camera camera = looking({0.0, 0.0, 10.0}, {0.0, 0.0, 0.0}, 0.01, {0, 1, 0});

@@ -67,8 +67,11 @@ RayOptions::check(const Options& options) const
 }
 
 void
-RayOptions::apply(const Options& options, pcl_uvol::RayTracingSettings& settings) const
+RayOptions::apply(const Options& options,
+                  const ViewOptions& view,
+                  pcl_uvol::RayTracingSettings& settings) const
 {
+  settings.cull_back_faces = view.culls();
   if (options.given("depth"))
     settings.depth = settings_.depth;
   if (options.given("no-shadows"))
@@ -127,6 +130,7 @@ makeSplatScene(const pcl_uvol::CloudView& cloud,
   object.splats =
       pcl::make_shared<pcl::PointCloud<pcl_uvol::PointSplat>>(std::move(splats.cloud));
   object.material = material;
+  object.two_sided = splats.two_sided;
   pcl_uvol::Scene scene;
   addWithDots(std::move(object), cloud, splats.sources, side, scene);
   return scene;
@@ -179,7 +183,7 @@ RayOptions::traceCloud(const Options& options,
   pcl_uvol::FittedSplats fitted(splats, surface.cloud, options.threads());
   pcl_uvol::RayTracer tracer;
   tracer.setScene(makeScene(view, cloud, std::move(splats), range));
-  apply(options, tracer.settings());
+  apply(options, view, tracer.settings());
   tracer.setSupersampling(view.getRaySupersampling());
   tracer.setNumberOfThreads(options.threads());
   tracer.setProgressCallback(report.progress);

@@ -33,9 +33,11 @@ public:
   void
   check(const Options& options) const;
 
-  /** \brief Change what was given on the command line. */
+  /** \brief Change what was given on the command line, and cull as views do. */
   void
-  apply(const Options& options, pcl_uvol::RayTracingSettings& settings) const;
+  apply(const Options& options,
+        const ViewOptions& view,
+        pcl_uvol::RayTracingSettings& settings) const;
 
   /** \brief Draw all frames of one cloud, covered by splats unless it has them. */
   void

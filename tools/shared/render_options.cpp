@@ -80,9 +80,6 @@ RenderOptions::declarePasses(Options& options)
   ImageSpaceSettings& s = settings_;
   constexpr int most = 1000000;
   options.group("Drawing points", true);
-  options.flag("culling",
-               s.cull_back_faces,
-               "leave out what looks away from the eye: faster, for closed surfaces");
   options.flag(
       "no-footprints", s.footprints, "every point is one pixel, however near", false);
   options.integer("fill", s.background_fill, 0, most, "background fills at most");
@@ -135,8 +132,7 @@ RenderOptions::declarePasses(Options& options)
 const std::vector<std::string>&
 RenderOptions::passNames()
 {
-  static const std::vector<std::string> names{"culling",
-                                              "no-footprints",
+  static const std::vector<std::string> names{"no-footprints",
                                               "fill",
                                               "occluded",
                                               "layers",
@@ -169,6 +165,7 @@ RenderOptions::check(const Options& options)
                         : smoothing_ == "box"      ? Filter::Box
                         : smoothing_ == "gaussian" ? Filter::Gaussian
                                                    : Filter::AlleviatedGaussian;
+  settings_.cull_back_faces = culls();
   settings_.background = getBackground();
   settings_.material = getMaterial();
   settings_.lights = getLights();

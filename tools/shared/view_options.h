@@ -43,7 +43,7 @@ public:
   /** What has a size: a window is not printed. */
   enum class SizeOf { Picture, Window };
 
-  /** \brief Camera, size, background, colours. */
+  /** \brief Camera, culling, size, background, colours. */
   void
   declareScene(Options& options, SizeOf size = SizeOf::Picture);
 
@@ -226,6 +226,13 @@ public:
     return background_.kind == pcl_uvol::Background::Kind::Transparent;
   }
 
+  /** \brief True if what looks away from the eye is left out. */
+  bool
+  culls() const
+  {
+    return culls_;
+  }
+
   /** \brief True if a colour bar is wanted. */
   bool
   hasBar() const
@@ -335,7 +342,7 @@ private:
   double fov_ = 30.0, zoom_ = 1.0;
   int supersampling_ = 0;
   std::uint64_t frames_ = 1;
-  bool has_bar_ = true, is_parallel_ = false;
+  bool has_bar_ = true, is_parallel_ = false, culls_ = false;
   pcl_uvol::Background background_;
   pcl_uvol::Material material_;
   std::vector<pcl_uvol::Light> lights_ = pcl_uvol::defaultLights();

@@ -162,6 +162,7 @@ ViewerWindow::saveRayTracedPicture()
   tracer.setScene(scene);
   tracer.setSize(size[0], size[1]);
   tracer.setSupersampling(look_.getSupersampling());
+  tracer.settings().cull_back_faces = settings.cull_back_faces;
   tracer.setCamera(getCamera());
   pcl_uvol::Image image;
   tracer.render(image);

@@ -54,6 +54,7 @@ struct PCL_UVOL_EXPORTS SplatParameters {
 struct Splats {
   pcl::PointCloud<PointSplat> cloud;
   std::vector<std::uint32_t> sources;
+  bool two_sided = false; ///< their normals have no meaningful sign
 };
 
 namespace detail {

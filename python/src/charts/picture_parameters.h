@@ -166,6 +166,7 @@ struct RayParameters {
   int light_samples = 16, occlusion = 0;
   double occlusion_distance = 0.0;
   double reflect = 0.0, transparent = 0.0, index = 1.0;
+  bool culling = false;
   std::optional<SplatParameters> splats; ///< none: the usual ones
 
   static auto
@@ -180,6 +181,7 @@ struct RayParameters {
                            Member{"reflect", &Own::reflect},
                            Member{"transparent", &Own::transparent},
                            Member{"index", &Own::index},
+                           Member{"culling", &Own::culling},
                            Member{"splats", &Own::splats});
   }
 };

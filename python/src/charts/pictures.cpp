@@ -188,6 +188,7 @@ private:
     settings.light_samples = rays_->light_samples;
     settings.occlusion_samples = rays_->occlusion;
     settings.occlusion_distance = rays_->occlusion_distance;
+    settings.cull_back_faces = rays_->culling;
     tracer_.setNumberOfThreads(threads_);
     tracer_.setSupersampling(std::max(look_.supersample, 1));
   }
@@ -216,6 +217,7 @@ private:
     object.material.reflectivity = rays_->reflect;
     object.material.transparency = rays_->transparent;
     object.material.refractive_index = rays_->index;
+    object.two_sided = splats.two_sided;
     addWithDots(std::move(object),
                 cloud_,
                 splats.sources,

@@ -43,6 +43,7 @@ applyRays(const RayParameters& rays, const Given& given, RayTracingSettings& set
     settings.occlusion_samples = rays.occlusion;
   if (has(given, "occlusion_distance"))
     settings.occlusion_distance = rays.occlusion_distance;
+  settings.cull_back_faces = rays.culling;
 }
 
 /** The camera of a file, unless another side is asked for: with what is asked for in
@@ -100,6 +101,7 @@ describe(const Camera& camera,
   dict["light_samples"] = rays.light_samples;
   dict["occlusion"] = rays.occlusion_samples;
   dict["occlusion_distance"] = rays.occlusion_distance;
+  dict["culling"] = rays.cull_back_faces;
   return dict;
 }
 

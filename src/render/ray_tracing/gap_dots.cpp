@@ -37,9 +37,11 @@ addWithDots(SplatObject&& object,
   dots.material.diffuse = dots.material.specular = 0.0;
   surface.splats = pcl::make_shared<pcl::PointCloud<PointSplat>>(std::move(covering));
   dots.splats = pcl::make_shared<pcl::PointCloud<PointSplat>>(std::move(small));
-  for (SplatObject* const part : {&surface, &dots})
+  for (SplatObject* const part : {&surface, &dots}) {
+    part->two_sided = object.two_sided;
     if (!part->splats->empty())
       scene.splats.push_back(std::move(*part));
+  }
 }
 
 } // namespace pcl_uvol

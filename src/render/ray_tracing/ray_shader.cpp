@@ -86,6 +86,7 @@ RayShader::RayShader(const World& world,
                      const Camera& camera)
     : world_(world)
     , settings_(settings)
+    , eye_(settings.cull_back_faces ? &camera.eye : nullptr)
     , occlusion_distance_(settings.occlusion_distance > 0.0
                               ? settings.occlusion_distance
                               : near_part * world.bounds().radius)
@@ -125,7 +126,7 @@ RayShader::visibility(const Light& light,
   const auto transmission = [&](const Eigen::Vector3d& to_source) {
     const double distance = to_source.norm();
     ++counts_.shadow;
-    return world_.transmission({start, to_source / distance},
+    return world_.transmission({start, to_source / distance, eye_},
                                is_point ? distance
                                         : std::numeric_limits<double>::infinity(),
                                {seen.hit.splat_object, seen.plane_normal});
@@ -162,7 +163,7 @@ RayShader::openness(const Seen& seen)
                                       std::sqrt(1.0 - sq_r) * seen.normal;
     ++counts_.shadow;
     open += direction.dot(seen.plane_normal) > 0.0 &&
-                    !world_.isBlocked({start, direction},
+                    !world_.isBlocked({start, direction, eye_},
                                       occlusion_distance_,
                                       {seen.hit.splat_object, seen.plane_normal})
                 ? 1
@@ -219,7 +220,7 @@ RayShader::send(const Seen& seen,
     leaving = (direction + (least_rise - rise) * out).normalized();
   ++counts_.secondary;
   pending_.push_back(
-      {{seen.hit.position + seen.hit.lift * out, leaving}, weight, depth});
+      {{seen.hit.position + seen.hit.lift * out, leaving, eye_}, weight, depth});
 }
 
 void
@@ -256,7 +257,7 @@ RayShader::shade(const Ray& ray, double height, std::uint64_t number)
   ++counts_.primary;
   Eigen::Vector3d color = Eigen::Vector3d::Zero(), normal = color;
   double opacity = 1.0;
-  pending_.push_back({ray, Eigen::Vector3d::Ones(), 0});
+  pending_.push_back({{ray.origin, ray.direction, eye_}, Eigen::Vector3d::Ones(), 0});
   while (!pending_.empty()) {
     const Pending next = pending_.back();
     pending_.pop_back();

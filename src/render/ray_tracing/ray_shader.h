@@ -28,7 +28,7 @@ struct ShadedRay {
 class RayShader {
 public:
   /** \param world must outlive the shader
-   * \param camera for lights that follow it */
+   * \param camera as well: lights follow it, and what looks away from it is culled */
   RayShader(const World& world,
             const RayTracingSettings& settings,
             const Camera& camera);
@@ -93,7 +93,8 @@ private:
 
   const World& world_;
   const RayTracingSettings& settings_;
-  std::vector<Light> lights_; ///< none follows the camera
+  std::vector<Light> lights_;  ///< none follows the camera
+  const Eigen::Vector3d* eye_; ///< see Ray
   double occlusion_distance_;
   std::vector<SplatHit> hits_;
   std::vector<Pending> pending_;

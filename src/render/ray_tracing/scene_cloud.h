@@ -48,6 +48,7 @@ struct SceneCloud {
   pcl::PointCloud<PointSplat>::Ptr splats;
   std::vector<std::uint32_t> sources; ///< points of the cloud, per splat
   std::vector<Rgba> colors;
+  bool two_sided = false;  ///< see SplatObject
   Eigen::AlignedBox3d box; ///< of the finite points
   Eigen::Vector3d origin;  ///< of their coordinates
 };

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 #include <tuple>
+#include <utility>
 
 namespace pcl_uvol {
 
@@ -113,13 +114,12 @@ fieldAt(const SplatRecord& splat, const Eigen::Vector3f& place)
 
 } // namespace
 
-SplatTree::SplatTree(const pcl::PointCloud<PointSplat>& splats,
-                     const std::vector<Rgba>& colors,
-                     Rgba color,
-                     unsigned threads,
-                     StepTimer& step)
+SplatTree::SplatTree(const SplatObject& object, unsigned threads, StepTimer& step)
     : kernels_(kernel_table.get())
+    , two_sided_(object.two_sided)
 {
+  const pcl::PointCloud<PointSplat>& splats = *object.splats;
+  const Rgba color = toRgba(object.material.color);
   Eigen::Array3f low = splats.front().getArray3fMap(), high = low;
   for (const PointSplat& splat : splats) {
     low = low.min(splat.getArray3fMap());
@@ -160,7 +160,7 @@ SplatTree::SplatTree(const pcl::PointCloud<PointSplat>& splats,
             {splat.tilt_u, splat.tilt_v},
             {splat.slope_u, splat.slope_v},
             thicknessOf(splat),
-            colors.empty() ? color : colors[index]};
+            object.colors.empty() ? color : object.colors[index]};
       }
     }
   });
@@ -193,6 +193,9 @@ SplatTree::localRay(const Ray& ray, double entry, double near, double far) const
   }
   local.near = static_cast<float>(std::max(near - entry, 0.0));
   local.far = static_cast<float>(far - entry);
+  local.culls = ray.eye != nullptr && !two_sided_;
+  for (int axis = 0; local.culls && axis < 3; ++axis)
+    local.eye[axis] = static_cast<float>((*ray.eye)[axis] - center_[axis]);
   return local;
 }
 
@@ -257,6 +260,13 @@ SplatTree::isBehind(const TreeRay& ray, const SplatHit& hit) const
 }
 
 bool
+SplatTree::looksAway(const TreeRay& ray, const SplatHit& hit) const
+{
+  const SplatRecord& splat = splats_[hit.splat];
+  return toVector(splat.normal).dot(toVector(ray.eye) - toVector(splat.center)) < 0.0f;
+}
+
+bool
 SplatTree::surround(const TreeRay& ray,
                     const std::vector<SplatHit>& hits,
                     const HitRange& range) const
@@ -307,7 +317,8 @@ SplatTree::intersect(const Ray& ray,
   const auto entry = findEntry(ray, near, far);
   if (!entry)
     return false;
-  const TreeRay local = localRay(ray, *entry, near, far);
+  TreeRay local = localRay(ray, *entry, near, far);
+  const bool culls = std::exchange(local.culls, false); // backs tell of cracks
   HitRange range = collect(local, same_surface, 0, hits);
   if (range.begin == range.end)
     return false;
@@ -322,6 +333,14 @@ SplatTree::intersect(const Ray& ray,
       reach = slip;
     }
     std::tie(first, limit) = findFirst(hits, range);
+  }
+  if (culls && looksAway(local, *first)) {
+    local.culls = true;
+    range = collect(local, same_surface, 0, hits);
+    if (range.begin == range.end)
+      return false;
+    std::tie(first, limit) = findFirst(hits, range);
+    reach = 1.0f;
   }
   const Eigen::Vector3f side = toVector(splats_[first->splat].normal);
   const Eigen::Vector3f origin = toVector(local.origin),

@@ -9,6 +9,7 @@
 #include <pcl_uvol/common/point_types.h>
 #include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/render/color_map.h>
+#include <pcl_uvol/render/ray_tracing/ray_tracer.h>
 #include <pcl_uvol/render/renderer.h>
 
 #include <Eigen/Core>
@@ -35,6 +36,8 @@ struct alignas(64) SplatRecord {
 struct Ray {
   Eigen::Vector3d origin;
   Eigen::Vector3d direction; ///< of length 1
+  /** Splats that look away from it are not met; null: all are. */
+  const Eigen::Vector3d* eye = nullptr;
 };
 
 /** \brief Where a ray meets a surface of splats. */
@@ -51,14 +54,8 @@ struct SplatSurfaceHit {
 /** \brief Built once. Memory: about 200 bytes per splat. */
 class SplatTree {
 public:
-  /** \param colors by splat; empty: all have this one color
-   * \param step of the splats
-   */
-  SplatTree(const pcl::PointCloud<PointSplat>& splats,
-            const std::vector<Rgba>& colors,
-            Rgba color,
-            unsigned threads,
-            StepTimer& step);
+  /** \param step of the splats */
+  SplatTree(const SplatObject& object, unsigned threads, StepTimer& step);
 
   /** \brief The first hit of a ray.
    * \param hits work space, which grows to what rays need
@@ -109,6 +106,10 @@ private:
   bool
   isBehind(const TreeRay& ray, const SplatHit& hit) const;
 
+  /** True for a hit of a splat that looks away from the eye. */
+  bool
+  looksAway(const TreeRay& ray, const SplatHit& hit) const;
+
   /** Where a ray has slipped through between splats that look to its start and lie
    * around it, and has met what is behind: those that it misses. Empty for others.
    * \param first that it meets */
@@ -142,6 +143,7 @@ private:
   const SplatTreeKernels* kernels_;
   Eigen::Vector3d center_; ///< the coordinates of the arrays are relative to it
   double radius_ = 0.0;
+  bool two_sided_;
   std::vector<TreeNode> nodes_;
   std::vector<TreeLeaf> leaves_;
   std::vector<SplatRecord> splats_; ///< tree_width per leaf

@@ -124,8 +124,10 @@ public:
         const Floats d = t * ray_.direction[axis] - offset[axis];
         sq += d * d;
       }
-      const Ints is_met = (sq <= ray_.sq_reach * load<Floats>(leaf.sq_radius + first)) &
-                          (t >= fill(ray_.near)) & (t <= fill(far_));
+      Ints is_met = (sq <= ray_.sq_reach * load<Floats>(leaf.sq_radius + first)) &
+                    (t >= fill(ray_.near)) & (t <= fill(far_));
+      if (ray_.culls)
+        is_met &= looksToEye(leaf, first);
       store(distance + first, t);
       store(sq_offset + first, sq);
       met |= laneBits(is_met) << first;
@@ -134,6 +136,17 @@ public:
   }
 
 private:
+  /** Of the splats of a leaf from the first one on. */
+  Ints
+  looksToEye(const TreeLeaf& leaf, int first) const
+  {
+    Floats facing{};
+    for (int axis = 0; axis < 3; ++axis)
+      facing += load<Floats>(leaf.normal[axis] + first) *
+                (ray_.eye[axis] - load<Floats>(leaf.center[axis] + first));
+    return facing >= fill(0.0f);
+  }
+
   /** The children that the ray meets, the nearest one last, or in any order. */
   std::size_t
   putAside(const TreeNode& node, std::size_t count)

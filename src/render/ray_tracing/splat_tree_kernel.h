@@ -45,6 +45,10 @@ struct TreeRay {
    * the distance from there to the origin; 0: it starts elsewhere. @{ */
   float own_normal[3], from_start;
   /** @} */
+  /** Splats that look away from the eye are not met. @{ */
+  bool culls = false;
+  float eye[3]{};
+  /** @} */
 };
 
 /** \brief A place where a ray meets a splat. */

@@ -99,8 +99,7 @@ World::World(Scene&& scene, unsigned threads, Report& report)
     splats += object.splats->size();
   StepTimer step(report, "build", splats);
   for (const SplatObject& object : scene.splats)
-    trees_.emplace_back(
-        *object.splats, object.colors, toRgba(object.material.color), threads, step);
+    trees_.emplace_back(object, threads, step);
   scene_ = std::move(scene);
   for (PlaneObject& plane : scene_.planes)
     plane.normal.normalize();

@@ -78,18 +78,21 @@ struct Discs {
 /** Where a ray meets the plane of a disc. */
 struct Meeting {
   double distance, sq_offset, radius;
+  double facing; ///< above 0 for a disc that looks to the eye
 
   Meeting(const Discs& discs, const TreeRay& ray, std::uint32_t splat)
   {
     const TreeLeaf& leaf = discs.leaves[splat / tree_width];
     const std::uint32_t i = splat % tree_width;
-    Vector3d center, normal, origin, direction;
+    Vector3d center, normal, origin, direction, eye;
     for (int axis = 0; axis < 3; ++axis) {
       center[axis] = leaf.center[axis][i];
       normal[axis] = leaf.normal[axis][i];
       origin[axis] = ray.origin[axis];
       direction[axis] = ray.direction[axis];
+      eye[axis] = ray.eye[axis];
     }
+    facing = normal.dot(eye - center);
     distance = normal.dot(center - origin) / normal.dot(direction);
     sq_offset = (origin + distance * direction - center).squaredNorm();
     radius = std::sqrt(static_cast<double>(leaf.sq_radius[i]));
@@ -99,9 +102,10 @@ struct Meeting {
   double
   margin(const TreeRay& ray) const
   {
-    return std::min({radius - std::sqrt(sq_offset),
-                     distance - ray.near,
-                     static_cast<double>(ray.far) - distance});
+    const double met = std::min({radius - std::sqrt(sq_offset),
+                                 distance - ray.near,
+                                 static_cast<double>(ray.far) - distance});
+    return ray.culls ? std::min(met, facing) : met;
   }
 };
 
@@ -122,7 +126,9 @@ randomRays(std::size_t count)
     for (int axis = 0; axis < 3; ++axis) {
       ray.origin[axis] = static_cast<float>(place(engine));
       ray.direction[axis] = static_cast<float>(direction[axis]);
+      ray.eye[axis] = static_cast<float>(place(engine));
     }
+    ray.culls = i % 7 < 3;
     ray.near = i % 3 == 0 ? 0.3f : 0.0f;
     ray.far = i % 4 == 0 ? 0.8f : std::numeric_limits<float>::infinity();
     rays.push_back(ray);
@@ -188,7 +194,8 @@ TEST(SplatTreeKernel, LeavesOutWhatLiesFarBehind)
 {
   const Discs discs(700);
   std::size_t all = 0, near = 0;
-  for (const TreeRay& ray : randomRays(300)) {
+  for (TreeRay ray : randomRays(300)) {
+    ray.culls = false;
     std::vector<SplatHit> hits(700);
     const SplatTreeKernels& kernel = baseline::splat_tree_kernels;
     near += kernel.collect(discs.arrays(), ray, 0.5f, hits.data(), hits.size());

@@ -33,6 +33,7 @@ struct SplatObject {
   pcl::PointCloud<PointSplat>::ConstPtr splats;
   std::vector<Rgba> colors; ///< one per splat; empty: that of the material
   RayMaterial material;
+  bool two_sided = false; ///< its normals have no meaningful sign: nothing is culled
 };
 
 /** \brief A ball. */
@@ -76,6 +77,8 @@ struct RayTracingSettings {
   /** What is farther away does not take ambient light; a length, 0 (default): a fifth
    * of the radius of the scene. */
   double occlusion_distance = 0.0;
+  /** Splats that look away from the eye are not there: no ray meets them. */
+  bool cull_back_faces = false;
 };
 
 /** \brief Pictures of splats, spheres and planes.
