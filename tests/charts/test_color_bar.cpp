@@ -116,6 +116,12 @@ TEST(AxisLabels, TellValuesApart)
   EXPECT_EQ((Texts{"-50", "0"}), below.texts);
   EXPECT_EQ("- 1600000000", below.offset);
   EXPECT_EQ("", labelValues({60.0, 180.0}).offset);
+  // One notation for all of them
+  EXPECT_EQ((Texts{"0", "5e-05", "1e-04"}), labelValues({0.0, 5e-5, 1e-4}).texts);
+  EXPECT_EQ((Texts{"-5e+05", "0", "5e+05", "1e+06", "1.5e+06"}),
+            labelValues({-5e5, 0.0, 5e5, 1e6, 1.5e6}).texts);
+  EXPECT_EQ((Texts{"9.995e+05", "1e+06"}), labelValues({999500.0, 1e6}).texts);
+  EXPECT_EQ((Texts{"100000", "150000"}), labelValues({1e5, 1.5e5}).texts);
   EXPECT_EQ((Texts{"7"}), labelValues({7.0}).texts);
 }
 

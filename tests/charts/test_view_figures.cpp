@@ -11,9 +11,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <random>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace {
 
@@ -158,6 +161,47 @@ TEST(DataBox, SaysTheValuesOfTheDataWhateverThePictureIsDrawnIn)
   EXPECT_NE(plain, draw(other, lookAt(eye, at)));
 }
 
+/** What the letters along x say, in a picture seen from the front. */
+std::vector<std::string>
+valuesAlongX(double low, double high, int font)
+{
+  DataBox box = unitBox();
+  box.box.min().x() = low;
+  box.box.max().x() = high;
+  const double middle = 0.5 * (low + high), size = high - low;
+  box.box.min().z() = -size; // its values stand apart
+  const uvol_tools::TextKeeper keeper;
+  Image image = makePaper();
+  uvol_tools::drawBoxBehind(
+      image,
+      Perspective(lookAt({middle, -3.0 * size, 0.1 * size}, {middle, 0.5, 0.0}),
+                  side,
+                  side,
+                  0,
+                  0),
+      box,
+      {font, {0, 0, 0}},
+      true);
+  std::vector<std::string> texts;
+  for (const uvol_tools::TextLine& line : keeper.getLines()) {
+    if (line.text == "x")
+      break;
+    texts.push_back(line.text);
+  }
+  return texts;
+}
+
+TEST(DataBox, HasValuesInEvenSteps)
+{
+  using Texts = std::vector<std::string>;
+  EXPECT_EQ((Texts{"-40", "-20", "0", "20", "40"}), valuesAlongX(-45.0, 45.0, 12));
+  EXPECT_EQ((Texts{"-40", "0", "40"}), valuesAlongX(-45.0, 45.0, 30));
+  EXPECT_EQ((Texts{"0"}), valuesAlongX(-45.0, 45.0, 60));
+  EXPECT_EQ((Texts{"20", "40", "60", "80"}), valuesAlongX(15.0, 95.0, 12));
+  EXPECT_EQ((Texts{"20", "60"}), valuesAlongX(15.0, 95.0, 25));
+  EXPECT_EQ((Texts{"20", "80"}), valuesAlongX(15.0, 95.0, 60));
+}
+
 TEST(DataBox, IsDrawnFromInsideAndWithoutAThickness)
 {
   Image image = makePaper();
@@ -244,7 +288,7 @@ TEST(ScaleBar, HasARoundLengthOfTheUnit)
                                                             {{0.02, 90.0}, 40.0}};
   for (const auto& [bar, length] : cases) {
     Image image = makePaper();
-    uvol_tools::drawScaleBar(image, {300.0, 300.0}, bar[0], bar[1], "m", style);
+    uvol_tools::drawScaleBar(image, {300.0, 300.0}, {bar[0], bar[1], "m"}, style);
     const auto isInk = [&](double column) {
       return image.color[4 * (300 * side + static_cast<std::size_t>(column))] < 100;
     };
@@ -252,8 +296,86 @@ TEST(ScaleBar, HasARoundLengthOfTheUnit)
     EXPECT_FALSE(isInk(300.0 - length - 3.0) || isInk(303.0)) << bar[0];
   }
   Image image = makePaper();
-  uvol_tools::drawScaleBar(image, {300.0, 300.0}, -1.0, 50.0, "m", style);
+  uvol_tools::drawScaleBar(image, {300.0, 300.0}, {-1.0, 50.0, "m"}, style);
   EXPECT_EQ(makePaper().color, image.color);
+  EXPECT_EQ("10000 ft", uvol_tools::ScaleBar(0.01, 150.0, "ft").text);
+}
+
+TEST(ScaleBar, LeavesWhatIsDrawnAlone)
+{
+  pcl::PointCloud<pcl::PointXYZ> corners;
+  corners.push_back({0.0f, 0.0f, 0.0f});
+  corners.push_back({1.0f, 1.0f, 1.0f});
+  const pcl_uvol::CloudView cloud = pcl_uvol::viewOf(corners);
+  uvol_tools::Figure figure;
+  figure.has_scale_bar = true;
+  // The quarters of the picture that are drawn, and where the bar has to be.
+  using Quarters = std::vector<std::pair<bool, bool>>; // to the right, below
+  const std::pair<Quarters, std::pair<bool, bool>> cases[] = {
+      {{}, {true, true}},
+      {{{true, true}}, {false, true}},
+      {{{true, true}, {false, true}}, {true, false}},
+      {{{true, true}, {false, true}, {true, false}}, {false, false}}};
+  for (const auto& [drawn, place] : cases) {
+    Image plain = makePaper();
+    const Image image = figure.drawViews(
+        {cloud, {{0.5, 0.5, 0.5}, 0.9}, {}},
+        {{}, side, side, side},
+        [](const pcl_uvol::SeenSurface& seen, const auto&) {
+          return pcl_uvol::chooseCamera({}, seen, {}, 1.0);
+        },
+        [&quarters = drawn, &plain](const Camera&, const auto&, Image& view) {
+          view = makePaper();
+          for (std::size_t i = 0; i < view.pixels(); ++i) {
+            const std::pair at(i % side >= side / 2, i / side >= side / 2);
+            const bool is_drawn =
+                std::find(quarters.begin(), quarters.end(), at) != quarters.end();
+            std::fill_n(&view.color[4 * i], 3, std::uint8_t{128});
+            view.color[4 * i + 3] = is_drawn ? 255 : 0;
+            if (is_drawn)
+              std::copy_n(&view.color[4 * i], 4, &plain.color[4 * i]);
+          }
+        });
+    std::size_t added = 0;
+    for (std::size_t i = 0; i < image.pixels(); ++i) {
+      if (std::equal(&image.color[4 * i], &image.color[4 * i + 4], &plain.color[4 * i]))
+        continue;
+      ++added;
+      EXPECT_EQ(place, std::pair(i % side >= side / 2, i / side >= side / 2));
+    }
+    EXPECT_GT(added, 100u);
+  }
+}
+
+TEST(Figure, BoxesHoldWhatCamerasAreFittedTo)
+{
+  pcl::PointCloud<pcl::PointXYZ> points;
+  points.push_back({0.0f, 0.0f, 0.0f});
+  points.push_back({1.0f, 2.0f, 3.0f});
+  points.push_back({1000.0f, -50.0f, 7.0f}); // lonely
+  const pcl_uvol::CloudView cloud = pcl_uvol::viewOf(points);
+  uvol_tools::Figure figure;
+  figure.has_box = true;
+  const auto boxOf = [&](const std::vector<pcl_uvol::FittedDisc>& discs) {
+    uvol_tools::Subject subject{cloud, {{500.0, 0.0, 3.0}, 510.0}, {}};
+    subject.find_discs = [&](const Camera&, const auto&) { return discs; };
+    Eigen::AlignedBox3d seen_box;
+    figure.drawViews(
+        subject,
+        {{}, side, side, side},
+        [&](const pcl_uvol::SeenSurface& seen, const auto&) {
+          seen_box = uvol_tools::boxAround(*seen.cloud);
+          return pcl_uvol::chooseCamera({}, seen, {}, 1.0);
+        },
+        [](const Camera&, const auto&, Image& view) { view = makePaper(); });
+    return std::pair(Vector3d(seen_box.min()), Vector3d(seen_box.max()));
+  };
+  constexpr float none = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(std::pair(Vector3d(0, 0, 0), Vector3d(1, 2, 3)),
+            boxOf({{1.0f, {}}, {1.0f, {}}, {none, {}}}));
+  const std::pair all(Vector3d(0, -50, 0), Vector3d(1000, 2, 7));
+  EXPECT_EQ(all, boxOf({}));
+  EXPECT_EQ(all, boxOf({{none, {}}, {none, {}}, {none, {}}}));
 }
 
 TEST(Lines, CoverWhatIsNearTheirSegment)

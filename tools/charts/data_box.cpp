@@ -243,20 +243,33 @@ private:
     return side >= 0.0 ? normal : Pixel{-normal[0], -normal[1]};
   }
 
-  /** Chooses of the values along an edge those whose letters do not meet. */
+  /** True if letters of neighbours along an edge do not meet. */
+  bool
+  haveRoom(const Edge& edge, const std::vector<double>& values) const
+  {
+    constexpr double letters = 2.6;
+    const auto at = [&](double value) {
+      return pixelAt(placeOn(edge, coordinateOf(edge.axis, value)));
+    };
+    return std::adjacent_find(values.begin(), values.end(), [&](double a, double b) {
+             return std::hypot(at(b)[0] - at(a)[0], at(b)[1] - at(a)[1]) <
+                    letters * style_.font;
+           }) == values.end();
+  }
+
+  /** Of round values along an edge all, or every second one, third one and so on, such
+   * as have room: from 0 on, if it is there, else from the first one on. */
   std::vector<double>
   thinned(const Edge& edge, const std::vector<double>& values) const
   {
-    constexpr double letters = 2.6;
-    std::vector<double> kept;
-    Pixel last{};
-    for (const double value : values) {
-      const Pixel pixel = pixelAt(placeOn(edge, coordinateOf(edge.axis, value)));
-      if (!kept.empty() &&
-          std::hypot(pixel[0] - last[0], pixel[1] - last[1]) < letters * style_.font)
-        continue;
-      kept.push_back(value);
-      last = pixel;
+    const bool has_zero = values.front() <= 0.0 && values.back() >= 0.0;
+    std::vector<double> kept = values;
+    for (long stride = 2; !haveRoom(edge, kept); ++stride) {
+      const double step = values[1] - values[0];
+      kept.clear();
+      for (const double value : values)
+        if (std::lround((has_zero ? value : value - values[0]) / step) % stride == 0)
+          kept.push_back(value);
     }
     return kept;
   }

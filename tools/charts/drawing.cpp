@@ -251,6 +251,28 @@ formatNumber(double value, int digits)
   return text;
 }
 
+/** A power of ten and at most as many digits before it, of which the last ones are not
+ * 0: 1.5e-05. */
+std::string
+formatScientific(double value, int digits)
+{
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*e", digits - 1, value);
+  const std::string number = text;
+  const std::size_t exponent = number.find('e');
+  std::size_t end = exponent;
+  if (number.find('.') != std::string::npos)
+    end = number.find_last_not_of("0.", exponent - 1) + 1;
+  return number.substr(0, end) + number.substr(exponent);
+}
+
+/** True for a number with a power of ten. */
+bool
+hasExponent(const std::string& text)
+{
+  return text.find('e') != std::string::npos;
+}
+
 /** The roundest number near the lower end of a range: the multiple of the largest power
  * of ten that lies within the range or as far below it. */
 double
@@ -283,6 +305,7 @@ labelValues(const std::vector<double>& values)
         (offset < 0.0 ? "- " : "+ ") + formatNumber(std::abs(offset), offset_digits);
   }
   const double tiny = 1e-9 * (values.back() - values.front());
+  std::vector<double> shown;
   for (double value : values) {
     value -= offset;
     if (std::abs(value) <= tiny)
@@ -292,7 +315,13 @@ labelValues(const std::vector<double>& values)
     const int wanted = digits > most_digits ? 4 : std::max(digits, 3);
     labels.texts.push_back(
         formatNumber(value, whole > most_digits ? wanted : std::max(whole, wanted)));
+    shown.push_back(value);
   }
+  // Not 5e-05 beside 0.0001.
+  if (std::any_of(labels.texts.begin(), labels.texts.end(), hasExponent))
+    for (std::size_t i = 0; i < shown.size(); ++i)
+      if (shown[i] != 0.0 && !hasExponent(labels.texts[i]))
+        labels.texts[i] = formatScientific(shown[i], std::max(digits, 4));
   return labels;
 }
 

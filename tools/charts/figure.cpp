@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 
@@ -81,21 +82,32 @@ layOver(const pcl_uvol::Image& view, const PictureCell& cell, pcl_uvol::Image& p
     }
 }
 
-/** Where a mark covers least of what is drawn already: its centre in one of the corners
- * of a view, the lower left one if others are no better.
- * \param ground what is behind all
- * \param margin between the mark and the view's borders, pixels */
+/** Places of a mark in the corners of a view. */
+struct Corners {
+  Pixel lower_left, lower_right, upper_left, upper_right;
+
+  /** \param margin between the mark and the view's borders, pixels */
+  Corners(const PictureCell& cell, const MarkBox& mark, int margin)
+  {
+    const double left = cell.left + margin - mark.left,
+                 right = cell.left + cell.width - 1 - margin - mark.right,
+                 top = cell.top + margin - mark.top,
+                 bottom = cell.top + cell.height - 1 - margin - mark.bottom;
+    lower_left = {left, bottom};
+    lower_right = {right, bottom};
+    upper_left = {left, top};
+    upper_right = {right, top};
+  }
+};
+
+/** The first of several places where a mark covers least of what is drawn already.
+ * \param ground what is behind all */
 Pixel
-findFreeCorner(const pcl_uvol::Image& image,
-               const pcl_uvol::Image& ground,
-               const PictureCell& cell,
-               const MarkBox& mark,
-               int margin)
+findFreePlace(const pcl_uvol::Image& image,
+              const pcl_uvol::Image& ground,
+              const MarkBox& mark,
+              const std::array<Pixel, 4>& places)
 {
-  const int left = cell.left + margin - mark.left,
-            right = cell.left + cell.width - 1 - margin - mark.right,
-            top = cell.top + margin - mark.top,
-            bottom = cell.top + cell.height - 1 - margin - mark.bottom;
   const auto isDrawn = [&](int column, int row) {
     if (column < 0 || row < 0 || column >= static_cast<int>(image.width) ||
         row >= static_cast<int>(image.height))
@@ -104,21 +116,20 @@ findFreeCorner(const pcl_uvol::Image& image,
     const auto pixel = image.color.begin() + at;
     return !std::equal(pixel, pixel + 4, ground.color.begin() + at);
   };
-  std::array<int, 2> best{};
+  Pixel best{};
   int least = std::numeric_limits<int>::max();
-  for (const auto& center :
-       {std::array<int, 2>{left, bottom}, {left, top}, {right, top}, {right, bottom}}) {
+  for (const Pixel& place : places) {
+    const int column = rounded(place[0]), row = rounded(place[1]);
     int covered = 0;
-    for (int row = center[1] + mark.top; row <= center[1] + mark.bottom; ++row)
-      for (int column = center[0] + mark.left; column <= center[0] + mark.right;
-           ++column)
-        covered += isDrawn(column, row) ? 1 : 0;
+    for (int y = row + mark.top; y <= row + mark.bottom; ++y)
+      for (int x = column + mark.left; x <= column + mark.right; ++x)
+        covered += isDrawn(x, y) ? 1 : 0;
     if (covered < least) {
       least = covered;
-      best = center;
+      best = place;
     }
   }
-  return {static_cast<double>(best[0]), static_cast<double>(best[1])};
+  return best;
 }
 
 pcl::PointCloud<pcl::PointXYZ>
@@ -133,15 +144,41 @@ listCorners(const Eigen::AlignedBox3d& box)
   return corners;
 }
 
+/** The discs of a subject as a camera sees them that sees all of it. */
+std::vector<pcl_uvol::FittedDisc>
+findDiscs(const Subject& subject, const PictureCell& cell)
+{
+  if (!subject.find_discs)
+    return {};
+  pcl_uvol::CameraChoice choice;
+  const double aspect = static_cast<double>(cell.width) / cell.height;
+  return subject.find_discs(
+      chooseCamera(choice, {subject.bounds, &subject.cloud}, {}, aspect), cell);
+}
+
+/** What marks show: the box around the points that cameras are fitted to. */
+Eigen::AlignedBox3d
+findBox(const Subject& subject, const PictureCell& cell)
+{
+  if (subject.box)
+    return *subject.box;
+  const std::vector<pcl_uvol::FittedDisc> discs = findDiscs(subject, cell);
+  const Eigen::AlignedBox3d box = boxAround(subject.cloud, [&discs](std::size_t i) {
+    return discs.empty() || !std::isnan(discs[i].radius);
+  });
+  return box.isEmpty() ? boxAround(subject.cloud) : box;
+}
+
 } // namespace
 
 Eigen::AlignedBox3d
-boxAround(const pcl_uvol::CloudView& cloud)
+boxAround(const pcl_uvol::CloudView& cloud,
+          const std::function<bool(std::size_t point)>& counts)
 {
   Eigen::AlignedBox3d box;
   for (std::size_t i = 0; i < cloud.count; ++i) {
     const Eigen::Vector3f point = Eigen::Map<const Eigen::Vector3f>(cloud.xyz(i));
-    if (point.allFinite())
+    if (point.allFinite() && (!counts || counts(i)))
       box.extend(point.cast<double>());
   }
   return box;
@@ -264,22 +301,33 @@ Figure::drawBefore(pcl_uvol::Image& image,
   if (has_scale_bar) {
     constexpr double longest = 0.25; // of the view's width
     const double distance = perspective.seenFromEye(box.box.center()).z();
+    const ScaleBar bar(perspective.pixelsOf(box.factors.x(), distance),
+                       longest * cell.width,
+                       box.unit);
+    const MarkBox mark = findScaleBarBox(bar, font);
+    const Corners at(cell, mark, font);
     drawScaleBar(
         image,
-        {cell.left + cell.width - 1.5 * font, cell.top + cell.height - 1.5 * font},
-        perspective.pixelsOf(box.factors.x(), distance),
-        longest * cell.width,
-        box.unit,
+        findFreePlace(image,
+                      ground,
+                      mark,
+                      {at.lower_right, at.lower_left, at.upper_right, at.upper_left}),
+        bar,
         style);
   }
-  if (has_triad)
+  if (has_triad) {
+    const MarkBox mark = findTriadBox(perspective, length, font);
+    const Corners at(cell, mark, font / 2);
     drawTriad(
         image,
         perspective,
-        findFreeCorner(
-            image, ground, cell, findTriadBox(perspective, length, font), font / 2),
+        findFreePlace(image,
+                      ground,
+                      mark,
+                      {at.lower_left, at.upper_left, at.upper_right, at.lower_right}),
         length,
         style);
+  }
 }
 
 pcl_uvol::Image
@@ -292,12 +340,13 @@ Figure::drawViews(const Subject& subject,
       makeGround(ground.background, ground.width, ground.height);
   pcl_uvol::Image picture = empty, image;
   DataBox box{{}, Eigen::Vector3d(subject.origin.data()), ground.factors, unit};
+  const std::vector<PictureCell> cells = layOut(ground.views_width, ground.height);
   if (drawsMarks())
-    box.box = subject.box ? *subject.box : boxAround(subject.cloud);
+    box.box = findBox(subject, cells[0]);
   Subject seen = subject;
   if (showsBox())
     seen.box = box.box;
-  for (const PictureCell& cell : layOut(ground.views_width, ground.height)) {
+  for (const PictureCell& cell : cells) {
     const pcl_uvol::Camera camera = findCameraOf(seen, cell, find_camera);
     draw(camera, cell, image);
     if (drawsMarks()) {

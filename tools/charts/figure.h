@@ -12,6 +12,7 @@
 #include <Eigen/Geometry>
 
 #include <array>
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <string>
@@ -39,9 +40,11 @@ struct Subject {
       find_discs = nullptr;
 };
 
-/** \brief The box around the points of a cloud that have a place. */
+/** \brief The box around the points of a cloud that have a place.
+ * \param counts says whether a point does; none: all do */
 Eigen::AlignedBox3d
-boxAround(const pcl_uvol::CloudView& cloud);
+boxAround(const pcl_uvol::CloudView& cloud,
+          const std::function<bool(std::size_t point)>& counts = nullptr);
 
 /** \brief Gives the camera of a view.
  * \param seen what it has to see */

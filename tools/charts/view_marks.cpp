@@ -50,8 +50,7 @@ struct TriadAxis {
   }
 };
 
-} // namespace
-
+/** The largest of 1, 2 or 5 times a power of ten that is not larger. */
 double
 roundedDown(double length)
 {
@@ -61,6 +60,12 @@ roundedDown(double length)
       return digit * power;
   return power;
 }
+
+/** Of the lines across the ends of a bar, to one side, and up to the middle of the text
+ * above it: in sizes of letters. */
+constexpr double cap = 0.35, above = 1.2;
+
+} // namespace
 
 MarkBox
 findTriadBox(const Perspective& perspective, double length, int font)
@@ -113,28 +118,45 @@ drawTriad(Image& image,
   }
 }
 
-void
-drawScaleBar(Image& image,
-             const Pixel& right_end,
-             double pixels_per_unit,
-             double longest,
-             const std::string& unit,
-             const MarkStyle& style)
+ScaleBar::ScaleBar(double pixels_per_unit, double longest, const std::string& unit)
 {
   const double length = roundedDown(longest / pixels_per_unit);
   if (!(length > 0.0) || !std::isfinite(length))
     return;
-  const double width = length * pixels_per_unit, left = right_end[0] - width,
-               row = right_end[1], cap = 0.35 * style.font,
-               thickness = style.font / 7.0;
+  width = length * pixels_per_unit;
+  text = labelValues({length}).texts[0] + (unit.empty() ? "" : " " + unit);
+}
+
+MarkBox
+findScaleBarBox(const ScaleBar& bar, int font)
+{
+  constexpr double half_letter = 0.3, half_height = 0.6; // of the font's size
+  const double beyond = std::max(
+      half_letter * font * static_cast<double>(bar.text.size()) - 0.5 * bar.width, 0.0);
+  return {-rounded(bar.width + beyond),
+          rounded(beyond),
+          -rounded((above + half_height) * font),
+          rounded(cap * font)};
+}
+
+void
+drawScaleBar(Image& image,
+             const Pixel& right_end,
+             const ScaleBar& bar,
+             const MarkStyle& style)
+{
+  if (bar.width == 0.0)
+    return;
+  const double left = right_end[0] - bar.width, row = right_end[1],
+               half = cap * style.font, thickness = style.font / 7.0;
   drawLine(image, left, row, right_end[0], row, thickness, style.ink);
   for (const double column : {left, right_end[0]})
-    drawLine(image, column, row - cap, column, row + cap, thickness, style.ink);
+    drawLine(image, column, row - half, column, row + half, thickness, style.ink);
   writeText(image,
-            shortNumber(length) + (unit.empty() ? "" : " " + unit),
+            bar.text,
             style.font,
             rounded(0.5 * (left + right_end[0])),
-            rounded(row - 1.2 * style.font),
+            rounded(row - above * style.font),
             TextAnchor::Center,
             style.ink);
 }

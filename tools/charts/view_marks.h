@@ -28,20 +28,26 @@ drawTriad(pcl_uvol::Image& image,
           double length,
           const MarkStyle& style);
 
-/** \brief The largest of 1, 2 or 5 times a power of ten that is not larger. */
-double
-roundedDown(double length);
+/** \brief A bar of a round length, as long as there is room for. */
+struct ScaleBar {
+  double width = 0.0; ///< pixels; 0: there is none
+  std::string text;   ///< its length
 
-/** \brief Draw a bar of a round length, at most that long, with its length above it.
- * \param right_end of the bar
- * \param pixels_per_unit of the data
- * \param longest pixels */
+  /** \param pixels_per_unit of the data
+   * \param longest pixels
+   * \param unit of the data; "": none */
+  ScaleBar(double pixels_per_unit, double longest, const std::string& unit);
+};
+
+/** \brief Where drawScaleBar() draws, from the right end of the bar. */
+MarkBox
+findScaleBarBox(const ScaleBar& bar, int font);
+
+/** \brief Draw a bar with its length above it. */
 void
 drawScaleBar(pcl_uvol::Image& image,
              const Pixel& right_end,
-             double pixels_per_unit,
-             double longest,
-             const std::string& unit,
+             const ScaleBar& bar,
              const MarkStyle& style);
 
 } // namespace uvol_tools

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "viewer/scale_bar.h"
 
-#include "charts/drawing.h"
 #include "charts/view_marks.h"
 
 #include <vtkCamera.h>
@@ -36,7 +35,7 @@ pixelsPerUnit(vtkRenderer& renderer)
 } // namespace
 
 void
-ScaleBar::addTo(vtkRenderer& renderer, double grey)
+WindowScaleBar::addTo(vtkRenderer& renderer, double grey)
 {
   constexpr int lines = 3;
   vtkNew<vtkCellArray> cells;
@@ -61,19 +60,19 @@ ScaleBar::addTo(vtkRenderer& renderer, double grey)
 }
 
 void
-ScaleBar::fit(vtkRenderer& renderer, double factor)
+WindowScaleBar::fit(vtkRenderer& renderer, double factor)
 {
   const int* const size = renderer.GetSize();
   const double pixels_per_unit = factor * pixelsPerUnit(renderer);
-  const double length = roundedDown(longest * size[0] / pixels_per_unit);
-  const bool is_seen = length > 0.0 && std::isfinite(length);
+  const ScaleBar bar(pixels_per_unit, longest * size[0], "");
+  const bool is_seen = bar.width > 0.0;
   for (vtkProp* const prop : {static_cast<vtkProp*>(line_),
                               static_cast<vtkProp*>(ground_),
                               static_cast<vtkProp*>(text_)})
     prop->SetVisibility(is_seen);
   if (!is_seen)
     return;
-  const double right = size[0] - margin, left = right - length * pixels_per_unit;
+  const double right = size[0] - margin, left = right - bar.width;
   ends_->SetPoint(0, left, margin, 0.0);
   ends_->SetPoint(1, right, margin, 0.0);
   for (const auto& [first, column] : {std::pair(2, left), std::pair(4, right)}) {
@@ -81,7 +80,7 @@ ScaleBar::fit(vtkRenderer& renderer, double factor)
     ends_->SetPoint(first + 1, column, margin + cap, 0.0);
   }
   ends_->Modified();
-  text_->SetInput(shortNumber(length).c_str());
+  text_->SetInput(bar.text.c_str());
   text_->SetPosition(0.5 * (left + right), margin + above);
 }
 

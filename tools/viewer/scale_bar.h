@@ -12,7 +12,7 @@ namespace uvol_tools {
 
 /** \brief A bar of a round length in the lower right corner, as lengths look where the
  * camera turns about. */
-class ScaleBar {
+class WindowScaleBar {
 public:
   /** \brief Show it from now on.
    * \param grey of its lines */

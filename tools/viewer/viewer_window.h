@@ -283,7 +283,7 @@ private:
   vtkNew<vtkSliderRepresentation2D> slider_shape_;
   vtkNew<vtkSliderWidget> slider_;
   vtkNew<vtkOrientationMarkerWidget> triad_;
-  ScaleBar scale_bar_;
+  WindowScaleBar scale_bar_;
 };
 
 } // namespace uvol_tools
