@@ -124,4 +124,11 @@ findHardwareContext();
 PCL_UVOL_EXPORTS std::shared_ptr<GlContext>
 wrapCurrentContext(const std::string& name, const GlContext::FunctionFinder& find);
 
+/** \brief The same for a context of EGL, OSMesa or GLX, whichever is current on this
+ * thread.
+ * \param name what getName() tells
+ * \throws GlError if none is current or it is too old */
+PCL_UVOL_EXPORTS std::shared_ptr<GlContext>
+wrapCurrentContext(const std::string& name);
+
 } // namespace pcl_uvol

@@ -8,7 +8,6 @@
 #include <GL/glcorearb.h>
 #include <array>
 #include <cstddef>
-#include <dlfcn.h>
 
 namespace pcl_uvol {
 
@@ -32,16 +31,8 @@ constexpr std::array<GLenum, 11> untracked_switches = {GL_COLOR_LOGIC_OP,
 std::shared_ptr<GlContext>
 wrapContext(vtkOpenGLRenderWindow& window)
 {
-  // VTK has loaded it, but tells nobody where its functions are.
-  static void* const library = dlopen("libGL.so.1", RTLD_LAZY | RTLD_LOCAL);
-  using Finder = GlContext::Function (*)(const unsigned char* name);
-  const auto find = reinterpret_cast<Finder>(
-      library != nullptr ? dlsym(library, "glXGetProcAddressARB") : nullptr);
-  if (find == nullptr)
-    throw GlError("libGL.so.1 with GLX is missing: install libgl1.");
-  return wrapCurrentContext(window.GetClassName(), [find](const char* name) {
-    return find(reinterpret_cast<const unsigned char*>(name));
-  });
+  // VTK tells nobody where its functions are, nor which window system they are of.
+  return wrapCurrentContext(window.GetClassName());
 }
 
 struct ScopedGlState::State {

@@ -130,6 +130,23 @@ TEST_P(GlContextOfEveryKind, TasksOfManyThreadsRunOneByOne)
   EXPECT_EQ(400, done);
 }
 
+TEST_P(GlContextOfEveryKind, IsFoundWhereItIsCurrent)
+{
+  const ContextPtr other = GetParam() == "osmesa"
+                               ? pcl_uvol::createEglContext(EglDevice::Software)
+                               : pcl_uvol::createOsMesaContext();
+  const ContextPtr context = create();
+  context->run([&] {
+    const ContextPtr found = pcl_uvol::wrapCurrentContext("window");
+    EXPECT_EQ("window", found->getName());
+    EXPECT_EQ(context->getVersion(), found->getVersion());
+    EXPECT_EQ(context->getRenderer(), found->getRenderer());
+    clearWithRed(*found, 0.375f);
+    EXPECT_EQ(0.375f, clearedRed(*context));
+    EXPECT_NE(nullptr, found->getFunction("glTexBuffer"));
+  });
+}
+
 TEST_P(GlContextOfEveryKind, UnknownFunctionsHaveNoEffectOnKnownOnes)
 {
   const ContextPtr context = create();
@@ -229,6 +246,9 @@ TEST(GlContext, NoCurrentContextIsAnError)
   const auto find_none = [](const char*) -> GlContext::Function { return nullptr; };
   EXPECT_THAT(messageOf([&] { pcl_uvol::wrapCurrentContext("window", find_none); }),
               HasSubstr("window"));
+  const ContextPtr elsewhere = pcl_uvol::createOsMesaContext();
+  EXPECT_THAT(messageOf([&] { pcl_uvol::wrapCurrentContext("window"); }),
+              testing::AllOf(HasSubstr("window"), HasSubstr("No context")));
 }
 
 /** A context that has forgotten one function. */
