@@ -26,6 +26,7 @@ using uvol_tools::UsageError;
 struct Arguments {
   std::string input, output, picture, grid = "128", method = "transform";
   std::string backend = "osmesa", axis = "z";
+  int card = 0;
   double inner_radius = 2.0;
   std::uint64_t triangles = 6, slices = 6, margin = 0;
   uvol_tools::SizeOption size;
@@ -52,6 +53,12 @@ declare(Options& options, Arguments& arguments)
                  "test of OpenGL: slower, a cell here and there is a little off");
   options.choice(
       "backend", {"osmesa", "egl"}, arguments.backend, "where cones are drawn");
+  options.integer("device",
+                  arguments.card,
+                  0,
+                  1000,
+                  "which of several graphics cards draws them, from 0, with -backend "
+                  "egl (default the first that can)");
   options.number("inner-radius",
                  arguments.inner_radius,
                  1.0,
@@ -113,7 +120,9 @@ computeDiagram(const Options& options,
   diagram.setMargin(static_cast<std::uint32_t>(arguments.margin));
   if (arguments.method == "cones")
     diagram.setNearestSites(std::make_shared<pcl_uvol::ConicSections>(
-        pcl_uvol::createHeadlessContext(arguments.backend),
+        pcl_uvol::createHeadlessContext(
+            arguments.backend,
+            options.given("device") ? std::optional(arguments.card) : std::nullopt),
         arguments.inner_radius,
         static_cast<unsigned>(arguments.triangles)));
   diagram.setNumberOfThreads(options.threads());
@@ -140,6 +149,8 @@ run(int argc, char** argv)
   if (cells.size() == 3 && arguments.margin > 0)
     throw UsageError("-margin is for cubic cells: give -grid one number.");
   pcl_uvol::checkGridPath(arguments.output);
+  if (options.given("device") && arguments.backend != "egl")
+    throw UsageError("-device is a graphics card, which -backend egl draws on.");
   if (!arguments.picture.empty())
     uvol_tools::checkPicturePath(arguments.picture);
   else if (options.given("slices") || options.given("axis"))

@@ -85,12 +85,15 @@ GlContext::identify()
 }
 
 std::shared_ptr<GlContext>
-createHeadlessContext(const std::string& name)
+createHeadlessContext(const std::string& name, std::optional<int> card)
 {
+  if (card && name != "egl")
+    throw InvalidArgument("A graphics card is chosen for \"egl\" only, not for \"" +
+                          name + "\".");
   if (name == "osmesa")
     return createOsMesaContext();
   if (name == "egl")
-    return createEglContext();
+    return createEglContext(EglDevice::Any, "", card);
   throw InvalidArgument("There is no context \"" + name +
                         "\": use \"osmesa\" or \"egl\".");
 }

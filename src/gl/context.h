@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace pcl_uvol {
@@ -101,15 +102,21 @@ enum class EglDevice {
 /** \brief A context of EGL without window or surface.
  * \param library to be loaded; "": libEGL.so.1
  * \param device which renderer
+ * \param card which of several graphics cards, from 0, and nothing else; none: see
+ * device
  * \throws GlError if the library is missing or none of these devices has a context */
 PCL_UVOL_EXPORTS std::shared_ptr<GlContext>
-createEglContext(EglDevice device = EglDevice::Any, const std::string& library = "");
+createEglContext(EglDevice device = EglDevice::Any,
+                 const std::string& library = "",
+                 std::optional<int> card = std::nullopt);
 
 /** \brief A context by name: "osmesa" or "egl" (a graphics card if there is one).
  * \param name "osmesa" or "egl"
- * \throws InvalidArgument for another name, GlError as the above */
+ * \param card see createEglContext
+ * \throws InvalidArgument for another name, and a card that is not of EGL; GlError as
+ * the above */
 PCL_UVOL_EXPORTS std::shared_ptr<GlContext>
-createHeadlessContext(const std::string& name);
+createHeadlessContext(const std::string& name, std::optional<int> card = std::nullopt);
 
 /** \brief A context of a graphics card, or null if there is none. */
 PCL_UVOL_EXPORTS std::shared_ptr<GlContext>

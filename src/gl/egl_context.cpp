@@ -4,6 +4,7 @@
 
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
+#include <algorithm>
 #include <cstring>
 #include <vector>
 
@@ -64,16 +65,18 @@ hasExtension(const char* list, const std::string& name)
 
 class EglContext : public HeadlessContext {
 public:
-  EglContext(EglDevice device, const std::string& library)
+  EglContext(EglDevice device, const std::string& library, std::optional<int> card)
       : HeadlessContext("egl")
       , egl_(SharedLibrary({library}, advice))
   {
     run([&] {
-      if (!createOn(device)) {
+      if (!createOn(device, card)) {
         destroy();
-        throw GlError(std::string("EGL has no OpenGL 3.3 core context ") +
-                      (device == EglDevice::Hardware ? "of a graphics card" : "here") +
-                      ": " + advice + ".");
+        const std::string of =
+            card ? "of graphics card " + std::to_string(*card) + ", counted from 0"
+            : device == EglDevice::Hardware ? "of a graphics card"
+                                            : "here";
+        throw GlError("EGL has no OpenGL 3.3 core context " + of + ": " + advice + ".");
       }
     });
   }
@@ -91,32 +94,52 @@ public:
 
 private:
   bool
-  createOn(EglDevice device)
+  createOn(EglDevice device, std::optional<int> card)
   {
     if (egl_.getPlatformDisplay == nullptr)
       return false;
+    if (card) {
+      const auto cards = findCards();
+      const auto number = static_cast<std::size_t>(*card);
+      return number < cards.size() && createOnCard(cards[number]);
+    }
     return (device != EglDevice::Software && createOnHardware()) ||
            (device != EglDevice::Hardware && createWithoutDevice());
+  }
+
+  /** All devices but those of software. */
+  std::vector<EGLDeviceEXT>
+  findCards() const
+  {
+    if (egl_.queryDevices == nullptr || egl_.queryDeviceString == nullptr)
+      return {};
+    EGLint count = 0;
+    egl_.queryDevices(0, nullptr, &count);
+    std::vector<EGLDeviceEXT> devices(static_cast<std::size_t>(count)), cards;
+    egl_.queryDevices(count, devices.data(), &count);
+    for (EGLDeviceEXT device : devices)
+      if (!hasExtension(egl_.queryDeviceString(device, EGL_EXTENSIONS),
+                        "EGL_MESA_device_software"))
+        cards.push_back(device);
+    return cards;
+  }
+
+  bool
+  createOnCard(EGLDeviceEXT card)
+  {
+    if (create(EGL_PLATFORM_DEVICE_EXT, card) && isHardware())
+      return true;
+    destroy();
+    return false;
   }
 
   bool
   createOnHardware()
   {
-    if (egl_.queryDevices == nullptr || egl_.queryDeviceString == nullptr)
-      return false;
-    EGLint count = 0;
-    egl_.queryDevices(0, nullptr, &count);
-    std::vector<EGLDeviceEXT> devices(static_cast<std::size_t>(count));
-    egl_.queryDevices(count, devices.data(), &count);
-    for (EGLDeviceEXT candidate : devices) {
-      const char* const extensions = egl_.queryDeviceString(candidate, EGL_EXTENSIONS);
-      if (hasExtension(extensions, "EGL_MESA_device_software"))
-        continue;
-      if (create(EGL_PLATFORM_DEVICE_EXT, candidate) && isHardware())
-        return true;
-      destroy();
-    }
-    return false;
+    const auto cards = findCards();
+    return std::any_of(cards.begin(), cards.end(), [this](EGLDeviceEXT card) {
+      return createOnCard(card);
+    });
   }
 
   bool
@@ -188,10 +211,10 @@ private:
 } // namespace
 
 std::shared_ptr<GlContext>
-createEglContext(EglDevice device, const std::string& library)
+createEglContext(EglDevice device, const std::string& library, std::optional<int> card)
 {
-  return std::make_shared<EglContext>(device,
-                                      library.empty() ? "libEGL.so.1" : library);
+  return std::make_shared<EglContext>(
+      device, library.empty() ? "libEGL.so.1" : library, card);
 }
 
 } // namespace pcl_uvol

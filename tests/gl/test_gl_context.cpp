@@ -219,6 +219,20 @@ TEST(GlContext, HardwareIsEitherThereOrNull)
     EXPECT_THROW(pcl_uvol::createEglContext(EglDevice::Hardware), GlError);
 }
 
+TEST(GlContext, CardsAreCountedFrom0)
+{
+  const ContextPtr any = pcl_uvol::findHardwareContext();
+  const auto create = [](int card) {
+    return pcl_uvol::createHeadlessContext("egl", card);
+  };
+  if (any)
+    EXPECT_EQ(any->getRenderer(), create(0)->getRenderer());
+  else // not in software
+    EXPECT_THAT(messageOf([&] { create(0); }), HasSubstr("graphics card 0"));
+  EXPECT_THAT(messageOf([&] { create(999); }), HasSubstr("graphics card 999"));
+  EXPECT_THROW(pcl_uvol::createHeadlessContext("osmesa", 0), pcl_uvol::InvalidArgument);
+}
+
 TEST(GlContext, ByName)
 {
   EXPECT_EQ("osmesa", pcl_uvol::createHeadlessContext("osmesa")->getName());

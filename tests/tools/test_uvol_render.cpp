@@ -293,7 +293,8 @@ TEST_F(RenderTool, RefusesWrongCommandLines)
         "-background 1,2,3", "-range 2,1",       "-orbit 0",
         "-supersample 9",    "-thickness 8",     "-lights 0,0,0",
         "-lights 1,2",       "-smoothing blur",  "-backend vulkan",
-        "-colormap jet",     "-parallel -fov 9", "-nonsense"}) {
+        "-colormap jet",     "-parallel -fov 9", "-backend cpu -device 0",
+        "-device -1",        "-nonsense"}) {
     const auto result = run(options);
     EXPECT_EQ(2, result.exit_code) << options << ": " << result.err;
     EXPECT_EQ("", result.out) << options;
@@ -312,6 +313,7 @@ TEST_F(RenderTool, FailsInOneSentenceAndLeavesNothingBehind)
         "uvol_render " + in_ + " /nowhere/out.png",
         "uvol_render " + in_ + " " + out_ + " -color density",
         "uvol_render " + in_ + " " + out_ + " -color rgb",
+        "uvol_render " + in_ + " " + out_ + " -device 999",
         "uvol_render " + in_ + " " + out_ + " -eye 0,0,5 -up 0,0,1 -at 0,0,0"}) {
     const auto result = runCommand(command);
     EXPECT_EQ(1, result.exit_code) << command;

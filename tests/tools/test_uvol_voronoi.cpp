@@ -244,6 +244,8 @@ TEST_F(VoronoiTool, RefusesWrongCommandLines)
   expectFailure("-margin -1", 2, "-margin");
   expectFailure("-method magic", 2, "magic");
   expectFailure("-backend cuda", 2, "cuda");
+  expectFailure("-method cones -device 0", 2, "-backend egl");
+  expectFailure("-method cones -backend egl -device 999", 1, "graphics card 999");
   expectFailure("-inner-radius 0.5", 2, "-inner-radius");
   expectFailure("-triangles 2", 2, "-triangles");
   expectFailure("-png " + picture_ + " -slices 0", 2, "-slices");

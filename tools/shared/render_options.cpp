@@ -27,14 +27,16 @@ constexpr double largest = 1e9;
 constexpr double full_pixel_bytes = 50.0, fitted_pixel_bytes = 31.0;
 
 /** What -backend names: auto takes a graphics card if there is one that can draw, else
- * the CPU, which is far faster than OpenGL in software. */
+ * the CPU, which is far faster than OpenGL in software.
+ * \param card the only one that may draw */
 std::shared_ptr<pcl_uvol::ImageSpaceBackend>
-makeBackend(const std::string& name)
+makeBackend(const std::string& name, std::optional<int> card)
 {
   if (name == "cpu")
     return std::make_shared<pcl_uvol::CpuBackend>();
-  if (name != "auto")
-    return std::make_shared<pcl_uvol::GlBackend>(pcl_uvol::createHeadlessContext(name));
+  if (name != "auto" || card)
+    return std::make_shared<pcl_uvol::GlBackend>(
+        pcl_uvol::createHeadlessContext(name == "auto" ? "egl" : name, card));
   try {
     if (const auto context = pcl_uvol::findHardwareContext())
       return std::make_shared<FallbackBackend>(
@@ -57,6 +59,14 @@ RenderOptions::declareView(Options& options)
               {"auto", "cpu", "osmesa", "egl"},
               backend_,
               "what draws; auto: OpenGL on a GPU where there is one, else the CPU")
+      .rare();
+  options
+      .integer("device",
+               card_,
+               0,
+               1000,
+               "which of several graphics cards draws, from 0 (default the first that "
+               "can)")
       .rare();
 }
 
@@ -155,6 +165,9 @@ void
 RenderOptions::check(const Options& options)
 {
   ViewOptions::check(options);
+  if (options.given("device") && backend_ != "auto" && backend_ != "egl")
+    throw UsageError("-device is a graphics card, and -backend " + backend_ +
+                     " draws on none.");
   for (const double opacity : opacities_)
     if (!(opacity >= 0.0 && opacity <= 1.0))
       throw UsageError("-opacity takes numbers from 0 to 1.");
@@ -199,7 +212,8 @@ RenderOptions::drawCloud(const Options& options,
   applyLook(options, cloud, renderer);
   renderer.settings().background = getBackgroundOfViews();
   renderer.setOpacities(opacities_);
-  renderer.setBackend(makeBackend(backend_));
+  renderer.setBackend(makeBackend(
+      backend_, options.given("device") ? std::optional(card_) : std::nullopt));
   const auto prepared = std::make_shared<pcl_uvol::PreparedSurface>(
       surface.cloud, options.threads(), report.progress);
   renderer.setPreparedSurface(prepared);

@@ -84,6 +84,7 @@ public:
 
 private:
   std::string smoothing_ = "alleviated", backend_ = "auto";
+  int card_ = 0;
   std::vector<double> line_color_, opacities_;
   pcl_uvol::ImageSpaceSettings settings_;
 };
