@@ -48,7 +48,7 @@ fitToSurface(const Camera& camera,
   const auto fit = [&](const std::vector<FittedDisc>& discs) {
     return fitToPoints(camera, {*seen.cloud, discs, turns}, aspect, fill);
   };
-  const Camera fitted = fit({});
+  Camera fitted = fit({});
   if (!seen.find_discs)
     return fitted;
   const std::vector<FittedDisc> discs = seen.find_discs(fitted);

@@ -18,10 +18,12 @@ std::vector<Position>
 makeBlock()
 {
   std::vector<Position> places;
-  for (int i = 0; i < 1000; ++i)
-    places.push_back({{static_cast<float>(i % 10),
-                       static_cast<float>(i / 10 % 20),
-                       static_cast<float>(i / 200)}});
+  places.reserve(1000);
+  for (int z = 0; z < 5; ++z)
+    for (int y = 0; y < 20; ++y)
+      for (int x = 0; x < 10; ++x)
+        places.push_back(
+            {{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)}});
   return places;
 }
 
