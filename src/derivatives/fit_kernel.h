@@ -47,12 +47,13 @@ struct alignas(64) FitResult {
  *
  * The standard error is that of a weighted mean with the weights as precisions: the
  * root of leverage times mean squared residual; residuals stand for noise and for the
- * terms that the polynomial lacks alike. Of the latter one leaves small residuals and
- * moves the zero level nevertheless: the mean curvature of the Laplacian, the fourth
- * power of the distance, for which value and curvature stand in. A fit fails where the
+ * terms that the polynomial lacks alike. One of these, the fourth power of the distance
+ * from the centre, leaves small residuals and moves the zero level nevertheless, since
+ * value and curvature stand in for it: the bias is told apart. A fit fails where the
  * normal equations are singular, no degree of freedom is left, or the zero level is not
- * found within the radius. \param count neighbours per centre, those without weight
- * included; even \param weighted neighbours with a weight, per lane */
+ * found within the radius.
+ * \param count neighbours per centre, those without weight included; even
+ * \param weighted neighbours with a weight, per lane */
 using FitKernel = void (*)(const FitSample* samples,
                            std::size_t count,
                            const int* weighted,

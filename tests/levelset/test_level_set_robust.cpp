@@ -173,9 +173,8 @@ TEST(LevelSetRobust, CleanAndThinDataAreLeftAsTheyAre)
   }
 }
 
-/** A ball of radius 8 whose values grow by a factor from spacing to spacing; the
- * surface is that of the isovalue 1. \param noise of the distance, and so a share of
- * the values */
+/** A ball of radius 8 whose values, 1 at its surface, grow from spacing to spacing.
+ * \param noise of the distance, and so a share of the values */
 NoisyCloud
 makeGrowth(float factor, double noise)
 {
