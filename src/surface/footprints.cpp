@@ -165,25 +165,26 @@ private:
            lengths_[lengths_.size() * percentile / 100];
   }
 
-  /** Whether another point lies on one smooth surface with the point. */
+  /** Whether another point lies on one smooth surface with the point.
+   * \param any_side it may look the other way */
   bool
-  isAlong(std::uint32_t other) const
+  isAlong(std::uint32_t other, bool any_side) const
   {
     const Eigen::Vector3f offset = positionOf(other) - here_;
     const float height = std::abs(offset.dot(normal_));
     const float agreement = normal_.dot(normalOf(other));
-    return (two_sided_ ? std::abs(agreement) : agreement) >= least_agreement &&
+    return (any_side ? std::abs(agreement) : agreement) >= least_agreement &&
            height * height <= steepest * steepest * offset.squaredNorm();
   }
 
   /** How far the last of the neighbours is that a disc has to meet; infinitely, where
-   * there are fewer on its surface, as around specks beside one. */
+   * there are fewer on a surface through the point, as around specks beside one. */
   float
   distanceToCompany() const
   {
     std::size_t company = 0;
     for (const auto& [sq_dist, neighbor] : neighbors_)
-      if (isAlong(neighbor) && ++company == least_company)
+      if (isAlong(neighbor, true) && ++company == least_company)
         return std::sqrt(sq_dist);
     return std::numeric_limits<float>::infinity();
   }
@@ -194,7 +195,7 @@ private:
   isMeasured() const
   {
     return cell_.allNeighbors(
-        [&](std::uint32_t neighbor) { return isAlong(neighbor); });
+        [&](std::uint32_t neighbor) { return isAlong(neighbor, two_sided_); });
   }
 
   void
