@@ -37,6 +37,8 @@ std::array<double, 3>
 findUsualSides(const std::vector<Position>& positions)
 {
   std::array<double, 3> sides{};
+  if (positions.empty())
+    return sides;
   std::vector<float> numbers(positions.size());
   for (std::size_t axis = 0; axis < sides.size(); ++axis) {
     std::transform(positions.begin(), positions.end(), numbers.begin(), [&](auto& p) {

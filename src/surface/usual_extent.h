@@ -13,7 +13,7 @@ namespace pcl_uvol {
 /** \brief Sides of the box of all points; along an axis where a few of these make it
  * more than twice as long as without them, that of the others. A few are a hundredth at
  * either end, rounded down.
- * \param positions at least one, all finite */
+ * \param positions all finite; of none the sides are 0 */
 PCL_UVOL_EXPORTS std::array<double, 3>
 findUsualSides(const std::vector<Position>& positions);
 

@@ -31,6 +31,7 @@ TEST(UsualExtent, IsThatOfTheBox)
 {
   EXPECT_EQ((Sides{9.0, 19.0, 4.0}), findUsualSides(makeBlock()));
   EXPECT_EQ((Sides{0.0, 0.0, 0.0}), findUsualSides({{{1.0f, 2.0f, 3.0f}}}));
+  EXPECT_EQ((Sides{0.0, 0.0, 0.0}), findUsualSides({}));
 }
 
 TEST(UsualExtent, AFewFarPointsAtEitherEndDoNotCount)
