@@ -27,6 +27,7 @@ checkPage(const uvol_tools::Options& options)
                 "supersample",
                 "dpi",
                 "backend",
+                "device",
                 "orbit",
                 "silhouettes",
                 "features",

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <iterator>
 
 namespace pcl_uvol {
 namespace io {
@@ -97,22 +96,49 @@ findLabel(std::string_view cell, const std::vector<std::string>& names)
   return static_cast<double>(name - names.begin());
 }
 
-void
-nameNormals(const std::vector<TextColumn>& columns, Fields& fields)
+namespace {
+
+constexpr const char* normal_names[][3] = {
+    {ply_normals[0], ply_normals[1], ply_normals[2]}, {"Nx", "Ny", "Nz"}};
+
+/** How far the square of a unit vector is from 1, if its parts have three digits. */
+constexpr double rounding = 0.005;
+
+} // namespace
+
+NormalColumns::NormalColumns(const std::vector<TextColumn>& columns)
 {
-  constexpr const char* names[][3] = {{ply_normals[0], ply_normals[1], ply_normals[2]},
-                                      {"Nx", "Ny", "Nz"}};
-  for (const auto& normal : names) {
-    const bool are_units =
-        std::all_of(columns.begin(), columns.end(), [&](const TextColumn& column) {
-          const bool is_part =
-              std::find(std::begin(normal), std::end(normal), column.name) !=
-              std::end(normal);
-          return !is_part || (column.low >= -1.0 && column.high <= 1.0);
-        });
-    if (are_units)
-      renameFields(fields, normal, cloud_normals);
+  for (const auto& names : normal_names) {
+    std::size_t found = 0;
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        if (columns[i].name == names[axis]) {
+          columns_[axis] = i;
+          ++found;
+        }
+    if (found == 3)
+      names_ = &names;
   }
+}
+
+void
+NormalColumns::take(const std::vector<double>& values)
+{
+  if (names_ == nullptr)
+    return;
+  double square = 0.0;
+  for (const std::size_t column : columns_)
+    square += values[column] * values[column];
+  const bool is_unit = std::abs(square - 1.0) <= rounding;
+  has_any_ = has_any_ || is_unit;
+  are_units_ = are_units_ && (is_unit || square == 0.0 || std::isnan(square));
+}
+
+void
+NormalColumns::rename(Fields& fields) const
+{
+  if (names_ != nullptr && are_units_ && has_any_)
+    renameFields(fields, *names_, cloud_normals);
 }
 
 void

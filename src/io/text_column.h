@@ -71,12 +71,26 @@ withoutDoubledQuotes(std::string_view cell);
 double
 findLabel(std::string_view cell, const std::vector<std::string>& names);
 
-/** \brief Call the normal of PLY files (nx) and of CloudCompare (Nx) by the names that
- * clouds have for it, if all three columns may be parts of unit vectors: numbers of
- * cells along the axes are not.
- * \param fields one per column, in the same order */
-void
-nameNormals(const std::vector<TextColumn>& columns, Fields& fields);
+/** \brief Columns that are named as the normal of PLY files (nx) or of CloudCompare
+ * (Nx): they are one where every row holds a unit vector, zeros or a missing number. */
+class NormalColumns {
+public:
+  explicit NormalColumns(const std::vector<TextColumn>& columns);
+
+  /** \brief Look at a row.
+   * \param values of all columns */
+  void
+  take(const std::vector<double>& values);
+
+  /** \brief Give them the names that clouds have for a normal, if they are one. */
+  void
+  rename(Fields& fields) const;
+
+private:
+  const char* const (*names_)[3] = nullptr; ///< of the three; null without them
+  std::size_t columns_[3];
+  bool are_units_ = true, has_any_ = false;
+};
 
 /** \brief Write a number as INT32, FLOAT32 or FLOAT64. */
 void

@@ -78,6 +78,7 @@ private:
   bool are_guessed_ = false;           ///< the coordinates, in spite of a header
   std::array<std::string, 3> guessed_; ///< their names
   CoordinateRange range_;
+  std::optional<NormalColumns> normals_;
   std::uint64_t count_ = 0;
   std::vector<std::string> notes_;
 };
@@ -315,6 +316,8 @@ TextTable::scan(bool keep)
   std::uint64_t left = cursor_->left();
   Cells cells;
   CoordinateRange::Point point{};
+  std::vector<double> row(columns_.size());
+  normals_.emplace(columns_);
   for (; rows_.next(cells); ++count_) {
     if (count_ % told_rows == 0) {
       step.advance(left - cursor_->left());
@@ -324,11 +327,13 @@ TextTable::scan(bool keep)
       TextColumn& column = columns_[i];
       const double value =
           column.cell ? column.take(cells[*column.cell], cursor_->tell().line) : 0.0;
+      row[i] = value;
       if (i < point.size())
         point[i] = value;
       if (keep)
         column.values.push_back(value);
     }
+    normals_->take(row);
     range_.add(point);
   }
 }
@@ -411,7 +416,7 @@ TextTable::describe()
     taken.push_back(std::move(column));
   }
   columns_ = std::move(taken);
-  nameNormals(columns_, info.fields);
+  normals_->rename(info.fields);
   info.double_coordinates =
       !(columns_[0].floats && columns_[1].floats && columns_[2].floats);
   info.has_coordinates = has_coordinates_;

@@ -14,10 +14,10 @@ namespace pcl_uvol {
 
 namespace {
 
-/** Error over standard error, and over bias: together they cover 95 % of the deviations
- * of noisy and of analytic fields, whose truncation errors have longer tails than
- * noise, and 99 % where fields grow tenfold in ten spacings, which leaves a third to
- * the first alone (tests/benchmarks). */
+/** Error over standard error, and over bias: together they cover 95 to 100 % of the
+ * deviations of analytic fields, whose truncation errors have longer tails than noise,
+ * and 90 to 97 % of noisy ones. Where fields grow tenfold in ten spacings standard
+ * errors alone cover two thirds (tests/benchmarks). */
 constexpr double error_factor = 3.5, bias_factor = 2.0;
 
 /** A slope whose standard error is a larger part of it may be as much less steep as so

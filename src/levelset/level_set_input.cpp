@@ -152,16 +152,18 @@ readInput(const CloudView& cloud,
   if (!(*low < threshold && threshold <= *high))
     refuseIsovalue(parameters, frame, *low, *high);
   std::vector<float> logarithms;
-  if (parameters.isovalue != 0.0)
+  if (parameters.isovalue != 0.0) // whose logarithm is beyond all numbers
     logarithms = takeLogarithms(input.f, frame, parameters.isovalue);
   for (float& value : input.f)
     value = static_cast<float>(static_cast<double>(value) - threshold);
-  if (!logarithms.empty() &&
+  input.is_logarithmic =
+      !logarithms.empty() &&
       areLogarithmsSmoother(*input.samples,
                             findCrossing(*input.samples, input.f, threads),
                             input.f,
                             logarithms,
-                            threads))
+                            threads);
+  if (input.is_logarithmic)
     input.f = std::move(logarithms);
   TamedValues tamed =
       tameValues(*input.samples, input.f, parameters.k, threads, report);

@@ -21,6 +21,7 @@ struct LevelSetInput {
                         ///< areLogarithmsSmoother() and tameValues()
   std::vector<std::uint32_t> sources;  ///< by sample, the points that they are of
   std::vector<std::uint32_t> crossing; ///< samples next to the zero level of f
+  bool is_logarithmic;                 ///< see areLogarithmsSmoother()
   bool had_spikes;                     ///< see TamedValues
   double spacing; ///< the median one of these, in the unit of the samples
 };

@@ -78,6 +78,7 @@ public:
       , largest_phi_(findLargestPhi(samples_))
   {
     summary_.spacing = samples_.getUnit().toInput(spacing_);
+    summary_.logarithmic = input_.is_logarithmic;
     start(readInitialValues(cloud, input_, parameters));
   }
 
@@ -217,6 +218,11 @@ private:
     band_ = makeBandOf(parameters_.scheme, crossing, report_);
     crossing_ = crossing;
     term_ = makeDataTerm(*band_, samples_, input_.f, threads_, report_);
+    if (!(term_.slope > 0.0))
+      throw InvalidArgument("The values beside the isovalue " +
+                            describeNumbers({parameters_.isovalue})[0] +
+                            " do not change from sample to sample: a level set goes by "
+                            "their slope. Extract the isosurface without smoothing.");
   }
 
   Band

@@ -125,38 +125,36 @@ warnOfGuesses(const pcl::PointCloud<PointIso>& isopoints,
               const IsosurfacePipelineParameters& parameters,
               Report& report)
 {
-  std::size_t known = 0, predicted = 0, open = 0, at_border = 0;
+  std::size_t known = 0, predicted = 0, guesses = 0, at_border = 0;
   for (std::size_t i = 0; i < isopoints.size(); ++i) {
     const auto support = static_cast<IsoSupport>(isopoints[i].support);
     known += support != IsoSupport::Unknown;
     predicted += support == IsoSupport::Predicted;
-    const bool is_rim = support == IsoSupport::Rim;
-    if (is_rim && choice.method[i] == IsoMethod::Fit && isKnown(isopoints[i]))
+    const bool is_rim = support == IsoSupport::Rim,
+               is_bisector = choice.orientation[i] == IsoOrientation::Bisector;
+    if (is_rim && !is_bisector && choice.method[i] == IsoMethod::Fit &&
+        isKnown(isopoints[i]))
       ++at_border;
     else
-      open += is_rim || support == IsoSupport::Bridged ||
-              choice.orientation[i] == IsoOrientation::Bisector;
+      guesses += is_rim || is_bisector || support == IsoSupport::Bridged;
   }
   if (predicted > 0)
     report.count("predicted", predicted);
-  const std::size_t guesses = open + at_border;
-  if (2 * guesses <= known || known == 0)
-    return;
-  const std::string percent = std::to_string(100 * guesses / known);
-  if (at_border > open) {
-    report.warnings.push_back(percent +
-                              " % of the isopoints lie at the border of the samples: "
-                              "the surface may go on beyond it.");
-    return;
-  }
-  report.warnings.push_back(
-      percent +
-      " % of the isopoints lie between lines of samples or beside gaps: where the "
-      "surface crosses a line is known, how it runs from there is a guess." +
-      (parameters.validation.folds > 0
-           ? ""
-           : " A hold-out test tells how good it is (-validate).") +
-      adviseRemedies(parameters));
+  const auto tell = [&](std::size_t part, const std::string& text) {
+    report.warnings.push_back(std::to_string(100 * part / known) + text);
+  };
+  if (2 * at_border > known)
+    tell(at_border,
+         " % of the isopoints lie at the border of the samples: the surface may go on "
+         "beyond it.");
+  else if (2 * (guesses + at_border) > known)
+    tell(guesses + at_border,
+         " % of the isopoints lie between lines of samples or beside gaps: where the "
+         "surface crosses a line is known, how it runs from there is a guess." +
+             std::string(parameters.validation.folds > 0
+                             ? ""
+                             : " A hold-out test tells how good it is (-validate).") +
+             adviseRemedies(parameters));
 }
 
 void

@@ -50,8 +50,11 @@ constexpr std::size_t measured_percentile = 90, unmeasured_percentile = 50;
 constexpr float least_agreement = 0.5f, steepest = 0.7f;
 /** @} */
 
-/** Neighbours that a disc has to meet: it closes no surface else. */
+/** Neighbours that a disc has to meet: it closes no surface else. The cosine of the
+ * angle of their normals is at least that, on either side: of coarse models, as of
+ * points with noise, they turn by more than those of a smooth surface. */
 constexpr std::size_t least_company = 3;
+constexpr float company_agreement = 0.3f;
 
 /** In parts of what half of the nearest points have: a point whose 16th neighbour is
  * farther away is lonely. Isopoints of graded samples grow apart by less, and clumps of
@@ -165,26 +168,28 @@ private:
            lengths_[lengths_.size() * percentile / 100];
   }
 
-  /** Whether another point lies on one smooth surface with the point.
-   * \param any_side it may look the other way */
   bool
-  isAlong(std::uint32_t other, bool any_side) const
+  isNearPlane(std::uint32_t other) const
   {
     const Eigen::Vector3f offset = positionOf(other) - here_;
-    const float height = std::abs(offset.dot(normal_));
-    const float agreement = normal_.dot(normalOf(other));
-    return (any_side ? std::abs(agreement) : agreement) >= least_agreement &&
-           height * height <= steepest * steepest * offset.squaredNorm();
+    const float height = offset.dot(normal_);
+    return height * height <= steepest * steepest * offset.squaredNorm();
   }
 
   /** How far the last of the neighbours is that a disc has to meet; infinitely, where
-   * there are fewer on a surface through the point, as around specks beside one. */
+   * there are fewer on a surface through the point, as around specks beside one. Of
+   * some points that are all there are, any one counts. */
   float
   distanceToCompany() const
   {
+    if (neighbors_.size() < few_neighbors)
+      return std::sqrt(
+          neighbors_[std::min(least_company, neighbors_.size()) - 1].first);
     std::size_t company = 0;
     for (const auto& [sq_dist, neighbor] : neighbors_)
-      if (isAlong(neighbor, true) && ++company == least_company)
+      if (isNearPlane(neighbor) &&
+          std::abs(normal_.dot(normalOf(neighbor))) >= company_agreement &&
+          ++company == least_company)
         return std::sqrt(sq_dist);
     return std::numeric_limits<float>::infinity();
   }
@@ -194,8 +199,11 @@ private:
   bool
   isMeasured() const
   {
-    return cell_.allNeighbors(
-        [&](std::uint32_t neighbor) { return isAlong(neighbor, two_sided_); });
+    return cell_.allNeighbors([&](std::uint32_t neighbor) {
+      const float agreement = normal_.dot(normalOf(neighbor));
+      return (two_sided_ ? std::abs(agreement) : agreement) >= least_agreement &&
+             isNearPlane(neighbor);
+    });
   }
 
   void

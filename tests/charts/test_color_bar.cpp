@@ -123,6 +123,10 @@ TEST(AxisLabels, TellValuesApart)
   EXPECT_EQ((Texts{"9.995e+05", "1e+06"}), labelValues({999500.0, 1e6}).texts);
   EXPECT_EQ((Texts{"100000", "150000"}), labelValues({1e5, 1.5e5}).texts);
   EXPECT_EQ((Texts{"7"}), labelValues({7.0}).texts);
+  // and no digits of rounding
+  const auto small = labelValues({4500000.00005, 4500000.0001, 4500000.00015});
+  EXPECT_EQ((Texts{"5e-05", "1e-04", "1.5e-04"}), small.texts);
+  EXPECT_EQ("+ 4500000", small.offset);
 }
 
 TEST(ColorBar, WritesDecadesBesideALogarithmicScale)

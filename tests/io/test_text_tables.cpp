@@ -71,14 +71,22 @@ TEST(TextTables, TypesOfColumns)
   EXPECT_EQ(load("x,y,z,id\n1,2,3,9007199254740993\n").notes.size(), 1u);
 }
 
-/** As PLY and CloudCompare call them; numbers of cells are none. */
+/** As PLY and CloudCompare call them; numbers of cells and places are none. */
 TEST(TextTables, NormalsHaveOneName)
 {
   const std::string normals =
       ", normal_x (float32), normal_y (float32), normal_z (float32)";
   EXPECT_EQ(xyz + normals, fieldsOf("x,y,z,nx,ny,nz\n1,2,3,0.6,-0.8,0.\n"));
-  EXPECT_EQ(xyz + normals, fieldsOf("x,y,z,Nx,Ny,Nz\n1,2,3,0.6,-0.8,-1.0\n"));
-  const std::string cells = ", nx (int32), ny (int32), nz (int32)";
+  EXPECT_EQ(xyz + normals, fieldsOf("x,y,z,Nx,Ny,Nz\n1,2,3,0.48,-0.6,-0.64\n"));
+  EXPECT_EQ(
+      xyz + normals,
+      fieldsOf("x,y,z,nx,ny,nz\n1,2,3,0.577,0.577,0.577\n1,2,3,0,0,0\n1,2,3,,,\n"));
+  const std::string cells = ", nx (int32), ny (int32), nz (int32)",
+                    places = ", nx (float32), ny (float32), nz (float32)";
+  EXPECT_EQ(xyz + places, fieldsOf("x,y,z,nx,ny,nz\n1,2,3,0.5,0.25,0.5\n"));
+  EXPECT_EQ(xyz + places,
+            fieldsOf("x,y,z,nx,ny,nz\n1,2,3,0.6,-0.8,0.\n1,2,3,0.6,-0.8,0.1\n"));
+  EXPECT_EQ(xyz + cells, fieldsOf("x,y,z,nx,ny,nz\n1,2,3,0,0,0\n1,2,3,0,0,0\n"));
   EXPECT_EQ(xyz + cells, fieldsOf("x,y,z,nx,ny,nz\n1,2,3,1,0,2\n"));
   EXPECT_EQ(xyz + cells, fieldsOf("x,y,z,nx,ny,nz\n1,2,3,1,0,-2\n"));
   EXPECT_EQ(xyz + ", nx (int32), ny (int32)", fieldsOf("x,y,z,nx,ny\n1,2,3,0,1\n"));

@@ -4,6 +4,7 @@
 #include "levelset/level_set_setup.h"
 #include "support/noisy_shapes.h"
 #include "support/smooth_fields.h"
+#include <pcl_uvol/common/exceptions.h>
 
 #include <gtest/gtest.h>
 
@@ -190,6 +191,7 @@ TEST(LevelSetRobust, CleanGrowthIsLeftAsItIs)
   for (const float factor : {1.5f, 2.0f, 3.0f}) {
     Evolution evolution;
     evolve(evolution, makeGrowth(factor, 0.0).cloud, 1.0);
+    EXPECT_TRUE(evolution.getSummary().logarithmic) << factor;
     EXPECT_FALSE(evolution.getSummary().smoothed) << factor;
     EXPECT_LT(evolution.getSummary().noise, 0.005) << factor;
   }
@@ -208,6 +210,36 @@ TEST(LevelSetRobust, NoisyGrowthIsSmoothedAsDistancesAre)
       measureOf(makeNoisyCloud(makeSmallShape("sphere", 8.0), 0.1, 3), 0.0);
   EXPECT_LT(measureOf(makeGrowth(2.0f, 0.1), 1.0), 1.1 * of_distance);
   EXPECT_LT(measureOf(makeGrowth(3.0f, 0.1), 1.0), 1.6 * of_distance);
+}
+
+/** Two clusters with a value each: between them the field jumps, where no sample is. */
+TEST(LevelSetRobust, RefusesValuesWithoutASlope)
+{
+  uvol_test::Random random(6);
+  const Cloud::Ptr clusters(new Cloud);
+  for (int i = 0; i < 1000; ++i) {
+    pcl::PointXYZI point;
+    for (float* const coordinate : {&point.x, &point.y, &point.z})
+      *coordinate = static_cast<float>(random.uniform());
+    point.x += i % 2 == 0 ? 0.0f : 5.0f;
+    point.intensity = i % 2 == 0 ? 1.0f : 5.0f;
+    clusters->push_back(point);
+  }
+  for (const bool is_automatic : {true, false}) {
+    Evolution evolution;
+    if (!is_automatic)
+      evolution.setMu(0.5);
+    try {
+      evolve(evolution, clusters, 3.0);
+      ADD_FAILURE() << is_automatic;
+    }
+    catch (const InvalidArgument& refusal) {
+      EXPECT_STREQ("The values beside the isovalue 3 do not change from sample to "
+                   "sample: a level set goes by their slope. Extract the isosurface "
+                   "without smoothing.",
+                   refusal.what());
+    }
+  }
 }
 
 TEST(LevelSetRobust, AutomaticWeightIsNearlyTheBestOnSmallShapes)

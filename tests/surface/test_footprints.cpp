@@ -234,6 +234,32 @@ TEST(Footprints, OfSpecksBesideASurfaceAreNone)
   }
 }
 
+/** Normals of neighbours are 63 degrees apart, and there are few of them. */
+TEST(Footprints, CoverCoarseModels)
+{
+  const float golden = 0.5f * (1.0f + std::sqrt(5.0f));
+  pcl::PointCloud<pcl::PointNormal> icosahedron;
+  for (const float one : {-1.0f, 1.0f})
+    for (const float other : {-golden, golden})
+      for (int axis = 0; axis < 3; ++axis) {
+        pcl::PointNormal vertex;
+        vertex.data[axis] = one;
+        vertex.data[(axis + 1) % 3] = other;
+        vertex.getNormalVector3fMap() = vertex.getVector3fMap().normalized();
+        icosahedron.push_back(vertex);
+      }
+  const Surface surface(icosahedron);
+  // Centres of triangles are 1.155 away from their corners.
+  for (const float radius : surface.footprints.radii)
+    EXPECT_GT(radius, 1.1f);
+  auto triangle = icosahedron;
+  triangle.resize(3);
+  for (auto& corner : triangle)
+    corner.getNormalVector3fMap() = Eigen::Vector3f::UnitZ();
+  for (const float radius : Surface(triangle).footprints.radii)
+    EXPECT_GT(radius, 0.0f);
+}
+
 /** Isopoints on a sphere about a place. */
 void
 addIsopoints(const Eigen::Vector3f& center,

@@ -304,6 +304,7 @@ labelValues(const std::vector<double>& values)
     labels.offset =
         (offset < 0.0 ? "- " : "+ ") + formatNumber(std::abs(offset), offset_digits);
   }
+  const int wanted = digits > most_digits ? 4 : std::max(digits, 3);
   const double tiny = 1e-9 * (values.back() - values.front());
   std::vector<double> shown;
   for (double value : values) {
@@ -312,7 +313,6 @@ labelValues(const std::vector<double>& values)
       value = 0.0; // and not "-0" by rounding
     // Thousands are written out.
     const int whole = static_cast<int>(std::ceil(std::log10(std::abs(value) + 1.0)));
-    const int wanted = digits > most_digits ? 4 : std::max(digits, 3);
     labels.texts.push_back(
         formatNumber(value, whole > most_digits ? wanted : std::max(whole, wanted)));
     shown.push_back(value);
@@ -321,7 +321,7 @@ labelValues(const std::vector<double>& values)
   if (std::any_of(labels.texts.begin(), labels.texts.end(), hasExponent))
     for (std::size_t i = 0; i < shown.size(); ++i)
       if (shown[i] != 0.0 && !hasExponent(labels.texts[i]))
-        labels.texts[i] = formatScientific(shown[i], std::max(digits, 4));
+        labels.texts[i] = formatScientific(shown[i], std::max(wanted, 4));
   return labels;
 }
 

@@ -25,6 +25,8 @@ describe(const pcl_uvol::LevelSetSummary& summary,
        text(summary.spacing, " (median at the surface)"),
        summary.spacing},
       {"noise" + of_isovalue, text(summary.noise, " spacings"), summary.noise}};
+  if (summary.logarithmic)
+    facts.emplace_back("values" + of_isovalue, "logarithms");
   if (summary.steps.empty()) {
     facts.emplace_back("level set" + of_isovalue,
                        std::string("none: smoothing would not bring the surface nearer "

@@ -25,7 +25,8 @@ public:
   PrintSelf(std::ostream& out, vtkIndent indent) override;
 
   /** \brief Largest distance of points to the disc that covers them, > 0: as a part of
-   * the longest side of the bounding box, or as a length. Default 1e-4, a part. @{ */
+   * the longest side of the bounding box of all points but a few far ones, or as a
+   * length. Default 1e-4, a part. @{ */
   vtkSetMacro(Delta, double);
   vtkGetMacro(Delta, double);
   vtkSetMacro(DeltaIsLength, bool);

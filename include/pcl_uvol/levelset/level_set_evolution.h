@@ -52,7 +52,8 @@ addPhi(const CloudView& cloud,
  * Evolves thesis (3.7), d phi / dt = (mu (f - f_iso - phi) + (1 - mu) kappa) |grad
  * phi|, where f - f_iso is divided by its slope, so that phi is about the distance to
  * the surface, positive where f is above the isovalue, and mu means the same for every
- * data set. Extract its zero level with IsosurfaceExtraction.
+ * data set; of densities that vary by decades the logarithm stands for f (see
+ * LevelSetSummary::logarithmic). Extract its zero level with IsosurfaceExtraction.
  *
  * \code
  * pcl_uvol::LevelSetEvolution<pcl::PointXYZI> evolution;

@@ -191,7 +191,9 @@ struct LevelSetSummary {
                         ///< length
   double noise = 0.0;   ///< standard deviation of f over its slope, in spacings, as the
                         ///< residuals of local fits tell it, or close pairs of samples
-  double mu = 0.0;      ///< as given, or the last one of those that were chosen
+  bool logarithmic = false; ///< f_iso log(f / f_iso) stood for f - f_iso, since it lies
+                            ///< nearer to quadratics: both have the same surface
+  double mu = 0.0;          ///< as given, or the last one of those that were chosen
   /** False where an automatic mu found nothing to smooth and no outliers were replaced:
    * phi has the zero level of the field itself, and there are no steps. */
   bool smoothed = true;

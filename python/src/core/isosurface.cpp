@@ -36,6 +36,7 @@ describe(const LevelSetSummary& summary)
   py::dict dict;
   dict["spacing"] = summary.spacing;
   dict["noise"] = summary.noise;
+  dict["logarithmic"] = summary.logarithmic;
   dict["mu"] = summary.mu;
   dict["smoothed"] = summary.smoothed;
   dict["converged"] = summary.converged;

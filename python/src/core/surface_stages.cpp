@@ -83,6 +83,7 @@ evolveLevelSet(const DatasetPtr& dataset,
   report["field"] = toText(evolution.getParameters().field);
   report["spacing"] = summary.spacing;
   report["noise"] = summary.noise;
+  report["logarithmic"] = summary.logarithmic;
   report["mu"] = summary.mu;
   report["smoothed"] = summary.smoothed;
   report["converged"] = summary.converged;
