@@ -50,11 +50,8 @@ constexpr std::size_t measured_percentile = 90, unmeasured_percentile = 50;
 constexpr float least_agreement = 0.5f, steepest = 0.7f;
 /** @} */
 
-/** Neighbours that a disc has to meet: it closes no surface else. The cosine of the
- * angle of their normals is at least that, on either side: of coarse models, as of
- * points with noise, they turn by more than those of a smooth surface. */
+/** Neighbours that a disc has to meet: it closes no surface else. */
 constexpr std::size_t least_company = 3;
-constexpr float company_agreement = 0.3f;
 
 /** In parts of what half of the nearest points have: a point whose 16th neighbour is
  * farther away is lonely. Isopoints of graded samples grow apart by less, and clumps of
@@ -188,7 +185,7 @@ private:
     std::size_t company = 0;
     for (const auto& [sq_dist, neighbor] : neighbors_)
       if (isNearPlane(neighbor) &&
-          std::abs(normal_.dot(normalOf(neighbor))) >= company_agreement &&
+          std::abs(normal_.dot(normalOf(neighbor))) >= least_agreement &&
           ++company == least_company)
         return std::sqrt(sq_dist);
     return std::numeric_limits<float>::infinity();

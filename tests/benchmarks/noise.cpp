@@ -53,7 +53,7 @@ localFit(const Cloud& cloud, std::size_t k, int degree)
   pcl_uvol::Report report;
   const auto samples = uvol_test::buildSamples(cloud);
   const auto graph = pcl_uvol::computeNearestNeighbors(*samples, k, 0, report);
-  const Cloud::Ptr fitted(new Cloud(cloud));
+  Cloud::Ptr fitted(new Cloud(cloud));
   pcl_uvol::parallelBlocks(graph.size(), 1024, 0, [&](auto begin, auto end) {
     for (std::size_t i = begin; i < end; ++i) {
       const auto center = samples->getInputIndex(i);

@@ -86,9 +86,11 @@ TEST(ValueScale, LogarithmsAreTakenOfGrowthAlone)
     EXPECT_TRUE(areTaken(noise, [](std::size_t, double distance) {
       return std::pow(2.0, distance);
     })) << noise;
-    EXPECT_FALSE(areTaken(noise, [](std::size_t, double distance) {
-      return 1.0 + 0.02 * distance;
-    })) << noise;
+    for (const double slope : {0.02, 2.0})
+      EXPECT_FALSE(areTaken(
+          noise,
+          [slope](std::size_t, double distance) { return 1.0 + slope * distance; }))
+          << noise << ' ' << slope;
   }
   EXPECT_TRUE(areTaken(0.1, [](std::size_t i, double distance) {
     return i % 100 == 0 ? 1e10 : std::pow(2.0, distance);

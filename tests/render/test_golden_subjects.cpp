@@ -61,7 +61,7 @@ draw(const std::shared_ptr<pcl::PointCloud<PointT>>& cloud,
 SurfaceCloudPtr
 makeSpecks()
 {
-  const auto cloud = uvol_test::makeSphere(6000, 1);
+  auto cloud = uvol_test::makeSphere(6000, 1);
   uvol_test::Random random(4);
   const auto anywhere = [&](float extent) {
     Eigen::Vector3f place;
@@ -81,7 +81,7 @@ makeSpecks()
 SurfaceCloudPtr
 makeInwardBall()
 {
-  const auto cloud = uvol_test::makeSphere(6000, 1);
+  auto cloud = uvol_test::makeSphere(6000, 1);
   for (auto& point : *cloud)
     point.getNormalVector3fMap() *= -1.0f;
   return cloud;
@@ -106,7 +106,7 @@ extract(const Field& value, const std::vector<double>& isovalues)
   pcl_uvol::IsosurfaceExtraction<pcl::PointXYZI> extraction;
   extraction.setInputCloud(samples);
   extraction.setIsoValues(isovalues);
-  const pcl::PointCloud<PointIso>::Ptr surface(new pcl::PointCloud<PointIso>);
+  pcl::PointCloud<PointIso>::Ptr surface(new pcl::PointCloud<PointIso>);
   extraction.extract(*surface);
   return surface;
 }

@@ -15,6 +15,7 @@ import tempfile
 # Kinds of reports that the commands of tests/bytes do not have.
 FURTHER = """
 uvol_isosurface noisy.pcd validated.ply -iso 0.3 -validate 3
+uvol_isosurface star.pcd logarithms.ply -field star -iso 0.01 -smooth
 uvol_isosurface noisy.pcd both.ply -iso 0.2,0.3 -smooth -mu 0.5 -steps 5 -validate 2
 uvol_info probe_grid.nrrd star.pcd
 uvol_isosurface star.pcd filled.ply -field star -iso 0.01 -fill-gaps
