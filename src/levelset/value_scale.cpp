@@ -57,6 +57,8 @@ areLogarithmsSmoother(const SampleSet& samples,
                       unsigned threads)
 {
   const std::size_t count = std::min(level_set.scale_fits, crossing.size());
+  if (count == 0)
+    return false;
   std::vector<double> of_values(count), of_logarithms(count);
   parallelBlocks(count, block_fits, threads, [&](auto begin, auto end) {
     NearestFinder finder(samples, level_set.noise_samples);

@@ -24,7 +24,7 @@ takeLogarithms(const std::vector<float>& values,
 /** \brief Whether the logarithms lie nearer to quadratics than the values do, by the
  * median over samples next to the surface: those of densities that vary by decades
  * within a few spacings. What quadratics do not follow would count as noise.
- * \param crossing samples next to the surface, at least one */
+ * \param crossing samples next to the surface; none: they are not */
 bool
 areLogarithmsSmoother(const SampleSet& samples,
                       const std::vector<std::uint32_t>& crossing,

@@ -75,6 +75,7 @@ areTaken(double noise, const Field& field)
   const auto crossing = findCrossing(*cube.samples, f, 1);
   const bool are_smoother =
       areLogarithmsSmoother(*cube.samples, crossing, f, logarithms, 1);
+  EXPECT_FALSE(areLogarithmsSmoother(*cube.samples, {}, f, logarithms, 1));
   EXPECT_EQ(are_smoother,
             areLogarithmsSmoother(*cube.samples, crossing, f, logarithms, 4));
   return are_smoother;
