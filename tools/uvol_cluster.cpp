@@ -273,7 +273,7 @@ run(int argc, char** argv)
   report.progress = std::ref(bar);
   Dataset dataset = uvol_tools::loadPoints(arguments.input,
                                            report,
-                                           uvol_tools::withoutPositions(),
+                                           uvol_tools::withoutPositions(options),
                                            arguments.where,
                                            options.threads());
   pcl_uvol::checkSavePath(arguments.output, dataset.cloud.fields);

@@ -306,7 +306,8 @@ run(int argc, char** argv)
   uvol_tools::ProgressBar bar;
   report.progress = std::ref(bar);
   auto total = std::make_unique<StepTimer>(report, "total");
-  pcl_uvol::Dataset dataset = uvol_tools::loadPoints(arguments.input, report);
+  pcl_uvol::Dataset dataset =
+      uvol_tools::loadPoints(arguments.input, report, uvol_tools::withScale(options));
   const std::size_t points = dataset.cloud.width;
   const auto sides = arguments.periodic.findSides(dataset, report);
   uvol_tools::addField(dataset, parameters.field, options, report, sides);

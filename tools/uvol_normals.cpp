@@ -99,7 +99,8 @@ run(int argc, char** argv)
   Report report;
   uvol_tools::ProgressBar bar;
   report.progress = std::ref(bar);
-  const pcl_uvol::Dataset dataset = uvol_tools::loadPoints(input, report);
+  const pcl_uvol::Dataset dataset =
+      uvol_tools::loadPoints(input, report, uvol_tools::withScale(options));
   pcl_uvol::checkSavePath(output, dataset.cloud.fields);
   memory.checkCloud(dataset, forecastMemory(k));
   pcl_uvol::SurfaceNormalParameters parameters;

@@ -117,8 +117,9 @@ run(int argc, char** argv)
   Report report;
   uvol_tools::ProgressBar bar;
   report.progress = std::ref(bar);
-  pcl_uvol::Dataset dataset =
-      uvol_tools::loadPoints(arguments.input, report, uvol_tools::withoutPositions());
+  pcl_uvol::LoadOptions load = uvol_tools::withoutPositions(options);
+  load.may_mix_units = true; // attributes are in standard deviations
+  pcl_uvol::Dataset dataset = uvol_tools::loadPoints(arguments.input, report, load);
   arguments.attributes.addFields(options, dataset, report);
   pcl_uvol::checkSavePath(arguments.output, dataset.cloud.fields);
   const pcl_uvol::ProjectedPoints found = arguments.attributes.project(

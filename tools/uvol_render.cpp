@@ -91,14 +91,17 @@ run(int argc, char** argv, uvol_tools::SeriesStep* step)
   else
     uvol_tools::checkPicturePath(output);
 
-  memory.checkFile(input, [&job = *job](double points, double size, auto& forecast) {
+  const auto forecastMemory = [&job =
+                                   *job](double points, double size, auto& forecast) {
     job.look.addColorNeed(points, size, forecast);
     if (job.is_page) // footprints of all points, as at worst in a picture
       forecast.run(pcl_uvol::splatsNeed(points, 0.0, true));
     else
       job.look.addMemoryNeed(points, 1, forecast);
-  });
+  };
+  memory.checkFile(input, forecastMemory);
   pcl_uvol::Dataset dataset = uvol_tools::loadPoints(input, report);
+  memory.checkCloud(dataset, forecastMemory); // of text only reading tells how many
   look.addColor(options, dataset, report);
   look.exaggerate(dataset);
   if (step && look.sharesView())

@@ -231,7 +231,7 @@ TextTable::findCoordinates()
     }
   }
   if (const auto found = recognizeCoordinates(names)) {
-    if (!found->note.empty())
+    if (!found->note.empty() && !options_.may_mix_units)
       notes_.push_back(found->note);
     return found->columns;
   }

@@ -473,6 +473,13 @@ private:
   double last_radius_ = 0.0; ///< of a support found before
 };
 
+constexpr std::pair<const char*, RootOutcome> outcome_counts[] = {
+    {"cubic_roots", RootOutcome::Cubic},
+    {"quadratic_roots", RootOutcome::Quadratic},
+    {"linear_singular", RootOutcome::Singular},
+    {"linear_step", RootOutcome::Step},
+    {"linear_far", RootOutcome::Far}};
+
 } // namespace
 
 std::vector<RootFit>
@@ -500,13 +507,7 @@ countRoots(const std::vector<RootOutcome>& outcomes,
            const std::vector<std::uint8_t>& supports,
            Report& report)
 {
-  constexpr std::pair<const char*, RootOutcome> names[] = {
-      {"cubic_roots", RootOutcome::Cubic},
-      {"quadratic_roots", RootOutcome::Quadratic},
-      {"linear_singular", RootOutcome::Singular},
-      {"linear_step", RootOutcome::Step},
-      {"linear_far", RootOutcome::Far}};
-  for (const auto& [name, outcome] : names)
+  for (const auto& [name, outcome] : outcome_counts)
     report.count(name,
                  static_cast<std::uint64_t>(
                      std::count(outcomes.begin(), outcomes.end(), outcome)));
@@ -516,6 +517,19 @@ countRoots(const std::vector<RootOutcome>& outcomes,
         name,
         static_cast<std::uint64_t>(std::count(
             supports.begin(), supports.end(), static_cast<std::uint8_t>(support))));
+}
+
+void
+leaveOutRoots(Report& report)
+{
+  const auto counts_outcome = [](const auto& count) {
+    return std::any_of(std::begin(outcome_counts),
+                       std::end(outcome_counts),
+                       [&](const auto& other) { return count.first == other.first; });
+  };
+  report.counts.erase(
+      std::remove_if(report.counts.begin(), report.counts.end(), counts_outcome),
+      report.counts.end());
 }
 
 void

@@ -44,6 +44,11 @@ countRoots(const std::vector<RootOutcome>& outcomes,
            const std::vector<std::uint8_t>& supports,
            Report& report);
 
+/** \brief Take the counts of outcomes out of a report: its isopoints have gone back to
+ * their edges, and the fits only told their errors. */
+void
+leaveOutRoots(Report& report);
+
 /** \brief Move isopoints onto fits through their nearest samples.
  * \param edges of the points, sorted by sample indices
  * \param points linear isopoints; where a fit does not

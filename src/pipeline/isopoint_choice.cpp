@@ -2,6 +2,7 @@
 #include "pipeline/isopoint_choice.h"
 
 #include "common/parallel.h"
+#include "isosurface/smooth_roots.h"
 #include "pipeline/edge_errors.h"
 #include "pipeline/isopoint_search.h"
 #include "pipeline/stretched_edges.h"
@@ -354,10 +355,12 @@ chooseIsopoints(const CloudView& samples,
   std::optional<StretchedEdges> stretched;
   if (all_return || returnsToEdges(parameters))
     stretched.emplace(samples, edges, parameters.isosurface);
-  if (all_return)
+  if (all_return) {
     for (std::size_t i = 0; i < isopoints.size(); ++i)
       if (!isSupport(isopoints[i], IsoSupport::Unknown))
         returnToEdge(*stretched, edges[i].t, i, isopoints[i]);
+    leaveOutRoots(report);
+  }
   for (const PointIso& point : isopoints)
     choice.method.push_back(hasFit(point) ? IsoMethod::Fit : IsoMethod::Linear);
   choice.orientation.resize(isopoints.size());

@@ -192,7 +192,16 @@ TEST(TextTables, CoordinatesHaveUsualNames)
     EXPECT_EQ(valueOf(dataset, "z", 0), z) << header;
     EXPECT_EQ(dataset.notes.size(), notes) << header;
   }
-  EXPECT_NE(load("lon,lat,depth\n1,2,3\n").notes[0].find("degrees"), std::string::npos);
+}
+
+TEST(TextTables, MixedUnitsAreToldUnlessNobodyMinds)
+{
+  const std::string table = "lon,lat,depth\n1,2,3\n";
+  ASSERT_EQ(load(table).notes.size(), 1u);
+  EXPECT_NE(load(table).notes[0].find("degrees"), std::string::npos);
+  pcl_uvol::LoadOptions options;
+  options.may_mix_units = true;
+  EXPECT_TRUE(load(table, options).notes.empty());
 }
 
 TEST(TextTables, WhereAnAxisIsNamedNothingIsGuessed)

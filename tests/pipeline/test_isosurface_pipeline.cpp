@@ -176,6 +176,10 @@ TEST(IsosurfacePipeline, LeavesOutWhatIsKnownNoBetterThanByItsEdge)
   const IsosurfaceResult linear = uvol_test::runPipeline(samples, parameters);
   EXPECT_GT(linear.surface.cloud.width, 0u);
   EXPECT_EQ(countKnown(linear), linear.surface.cloud.width);
+  for (const auto& [count, value] : linear.report.counts)
+    EXPECT_TRUE(count.find("_roots") == std::string::npos &&
+                count.find("linear_") == std::string::npos)
+        << count << " counts " << value << " fits that only told errors";
 }
 
 TEST(IsosurfacePipeline, LeavesOutWhatIsNotWanted)

@@ -44,6 +44,15 @@ protected:
     return uvol_test::readFile(out);
   }
 
+  /** The options of a job, with the file of places. */
+  std::string
+  withPlaces(std::string options)
+  {
+    if (const auto at = options.find("PLACES"); at != std::string::npos)
+      options.replace(at, 6, folder_ / "places.csv");
+    return options;
+  }
+
   const uvol_test::TemporaryFolder folder_;
   const std::string in_ = folder_ / "in.csv";
 };
@@ -61,15 +70,32 @@ TEST_F(ScaleOptions, ADiagonalMatrixIsThreeFactors)
 {
   uvol_test::writeFile(folder_ / "places.csv", "x,y,z\n200,200,1\n100,300,0.5\n");
   for (const auto& [tool, options] : jobs) {
-    std::string job = options;
-    if (const auto at = job.find("PLACES"); at != std::string::npos)
-      job.replace(at, 6, folder_ / "places.csv");
+    const std::string job = withPlaces(options);
     const std::string expected = outputOf(tool, job + "-scale 1,1,100");
     EXPECT_EQ(expected, outputOf(tool, job + "-scale 1,0,0,0,1,0,0,0,100"));
     EXPECT_EQ(expected, outputOf(tool, job + "-scale 1,1,100 -rotate 0,0,0"));
     EXPECT_NE(expected, outputOf(tool, job + "-scale 1,1,100 -rotate 0,20,10"));
     outputOf(tool, job + "-scale spacing -rotate 10,0,0");
     outputOf(tool, job + "-scale auto");
+  }
+}
+
+TEST_F(ScaleOptions, MakeUpForAxesOfSeveralUnits)
+{
+  std::string table = uvol_test::readFile(in_);
+  table.replace(0, std::string("x,y,z").size(), "lon,lat,depth");
+  uvol_test::writeFile(in_, table);
+  uvol_test::writeFile(folder_ / "places.csv", "lon,lat,depth\n200,200,1\n");
+  for (const auto& [tool, options] : jobs) {
+    const std::string job = std::string(tool) + " " + in_ + " " +
+                            (folder_ / "out.csv") + " " + withPlaces(options);
+    for (const auto& [scale, is_told] : {std::pair("", true),
+                                         std::pair("-scale 111,80,0.001", false),
+                                         std::pair("-scale auto", false)}) {
+      const std::string warnings = runCommand(job + scale).err;
+      EXPECT_EQ(is_told, warnings.find("mix degrees") != std::string::npos)
+          << job << scale << ": " << warnings;
+    }
   }
 }
 

@@ -123,11 +123,11 @@ AttributeOptions::checkPosition(const pcl_uvol::Dataset& dataset) const
 }
 
 pcl_uvol::LoadOptions
-withoutPositions()
+withoutPositions(const Options& options)
 {
-  pcl_uvol::LoadOptions options;
-  options.needs_coordinates = false;
-  return options;
+  pcl_uvol::LoadOptions load = withScale(options);
+  load.needs_coordinates = false;
+  return load;
 }
 
 std::string

@@ -77,7 +77,7 @@ private:
 
 /** \brief How files of attributes are read: they need no coordinates. */
 pcl_uvol::LoadOptions
-withoutPositions();
+withoutPositions(const Options& options);
 
 /** \brief The field of labels: the one that is asked for, else "label" if there is one,
  * else "". */

@@ -38,6 +38,7 @@ parseColumns(const std::string& columns)
 void
 InputOptions::declare(Options& options)
 {
+  options_ = &options;
   options.text("xyz",
                "x,y,z",
                xyz_,
@@ -61,11 +62,19 @@ InputOptions::declare(Options& options)
 pcl_uvol::LoadOptions
 InputOptions::makeLoadOptions() const
 {
-  pcl_uvol::LoadOptions options;
+  pcl_uvol::LoadOptions options = withScale(*options_);
   options.xyz_columns = parseColumns(xyz_);
   options.particles = particles_;
   options.cells = cells_;
   return options;
+}
+
+pcl_uvol::LoadOptions
+withScale(const Options& options)
+{
+  pcl_uvol::LoadOptions load;
+  load.may_mix_units = options.given("scale");
+  return load;
 }
 
 pcl_uvol::Dataset

@@ -24,9 +24,15 @@ public:
   makeLoadOptions() const;
 
 private:
+  const Options* options_ = nullptr; ///< of the tool
   std::string xyz_, particles_;
   bool cells_ = false;
 };
+
+/** \brief How a file is read by a tool with the option -scale, which makes up for axes
+ * of several units. */
+pcl_uvol::LoadOptions
+withScale(const Options& options);
 
 /** \brief Read a file, as a step of the report; its notes become warnings.
  * \param where keep only the points for which that holds, see selectRows; "": all
