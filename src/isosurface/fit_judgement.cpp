@@ -188,9 +188,9 @@ judge(const FitResult& result, std::size_t lane, const Surroundings& surrounding
     return RootOutcome::Singular;
   if (surroundings.has_steps)
     return RootOutcome::Step;
-  const double residual = result.residual[lane] / surroundings.value_range;
-  if (!(residual <=
-        (surroundings.edge_span > step_span ? step_residual : largest_residual)))
+  const double residual = result.residual[lane] / surroundings.values.range();
+  if (!(residual <= (surroundings.values.partOfEdge() > step_span ? step_residual
+                                                                  : largest_residual)))
     return RootOutcome::Step;
   const double shift = std::hypot(
       result.offset[0][lane], result.offset[1][lane], result.offset[2][lane]);
@@ -200,6 +200,13 @@ judge(const FitResult& result, std::size_t lane, const Surroundings& surrounding
   if (!(surroundings.radius * std::max(errorOfRoot(result, lane), shift) <= room))
     return RootOutcome::Far;
   return result.order[lane] == fit_cubic ? RootOutcome::Cubic : RootOutcome::Quadratic;
+}
+
+double
+errorOfFit(const FitResult& result, std::size_t lane)
+{
+  const double doubt = std::max(0.0, result.slope_error[lane] - sure_slope);
+  return errorOfRoot(result, lane) / std::max(1.0 - slope_factor * doubt, least_slope);
 }
 
 bool
@@ -225,7 +232,7 @@ isFarFromJump(const FitResult& result,
 {
   const double shift = std::hypot(
       result.offset[0][lane], result.offset[1][lane], result.offset[2][lane]);
-  return surroundings.edge_span > step_span &&
+  return surroundings.values.partOfEdge() > step_span &&
          surroundings.radius * shift > farthest_from_jump * edge_length &&
          !(result.error[lane] <= smooth_error);
 }
@@ -265,21 +272,13 @@ errorOnEdge(const IsoEdge& edge, const PointIso& point)
   return std::max(edge.t, 1.0f - edge.t) * point.edge_length;
 }
 
-/** Error of the zero level of a fit, in radii of the support. */
-double
-errorOfFit(const FitResult& result, std::size_t lane)
-{
-  const double doubt = std::max(0.0, result.slope_error[lane] - sure_slope);
-  return errorOfRoot(result, lane) / std::max(1.0 - slope_factor * doubt, least_slope);
-}
-
 /** How far from its edge a fit that does not serve would have an isopoint, at most, in
  * radii of the support: where values scatter, the surface may lie beyond the edge.
  * Across a step it does not, and samples that determine no fit do not tell. */
 double
 reachOfFit(const FitResult& result, std::size_t lane, const Surroundings& surroundings)
 {
-  if (surroundings.has_steps || surroundings.edge_span > step_span ||
+  if (surroundings.has_steps || surroundings.values.partOfEdge() > step_span ||
       std::isnan(result.value[lane]))
     return 0.0;
   if (result.order[lane] == fit_failed)

@@ -10,20 +10,39 @@
 
 #include <Eigen/Core>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace pcl_uvol {
 
+/** \brief Values around an isopoint. */
+struct ValueSpan {
+  double lowest, highest; ///< of the fitted samples
+  double edge[2];         ///< at the ends of the isopoint's edge
+
+  double
+  range() const
+  {
+    return highest - lowest;
+  }
+
+  /** The part of the range between the ends of the edge. */
+  double
+  partOfEdge() const
+  {
+    return std::abs(edge[1] - edge[0]) / range();
+  }
+};
+
 /** \brief The neighbourhood of one isopoint, beside what the fit is made from. Lengths
  * are those of the stretched space. */
 struct Surroundings {
   double edge_length;
-  double radius;      ///< of the support
-  double value_range; ///< of the fitted samples
-  double edge_span;   ///< part of the range between the values at the ends of the edge
-  Position center;    ///< the linear root
+  double radius; ///< of the support
+  ValueSpan values;
+  Position center; ///< the linear root
   IsoSupport support;
   bool has_steps;           ///< the values are labels
   bool is_wide_gap = false; ///< see wide_gap
@@ -66,6 +85,11 @@ supportInPlane(const Surroundings& surroundings,
 /** \brief Whether a lane's fit serves, and if not, why. */
 RootOutcome
 judge(const FitResult& result, std::size_t lane, const Surroundings& surroundings);
+
+/** \brief Error of the zero level of a fit that has not failed, in radii of the
+ * support. */
+double
+errorOfFit(const FitResult& result, std::size_t lane);
 
 /** \brief Whether an edge slips between samples, as through the channels of a lattice:
  * it is longer than those around are far, and they tell of no surface there, as they

@@ -67,10 +67,7 @@ PlanarRoots::fillLane(const IsoEdge& edge, Surroundings& surroundings)
     neighbors_.push_back(neighbor);
   }
   surroundings.radius = static_cast<double>(radius);
-  surroundings.value_range = static_cast<double>(highest) - lowest;
-  surroundings.edge_span =
-      std::abs(static_cast<double>(values[edge.second]) - values[edge.first]) /
-      surroundings.value_range;
+  surroundings.values = {lowest, highest, {values[edge.first], values[edge.second]}};
   surroundings.has_steps = areLabels(values, neighbors_.data(), count);
 }
 

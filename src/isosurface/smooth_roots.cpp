@@ -5,6 +5,7 @@
 #include "common/parallel.h"
 #include "isosurface/fit_judgement.h"
 #include "isosurface/left_out_lines.h"
+#include "isosurface/logarithmic_fits.h"
 #include "isosurface/planar_roots.h"
 #include "neighbors/empty_cone_kernel.h"
 #include "neighbors/local_metric.h"
@@ -69,6 +70,7 @@ public:
       , planar_(input, isovalue)
       , samples_(fitted_samples + 2) // an even number
       , fit_(fit_kernels.get())
+      , logarithmic_(fit_, isovalue)
       , left_out_(fit_)
       , isovalue_(isovalue)
   {
@@ -131,7 +133,7 @@ private:
               : clear(lane, 0);
     FitResult result;
     if (searches > 0)
-      fit_(samples_.data(), samples_.size(), weighted, result);
+      fit(weighted, surroundings, result);
     for (std::size_t lane = 0; lane < count; ++lane) {
       const std::size_t i = first + lane;
       if (gaps[lane] > 0.0f || surroundings[lane].is_wide_gap) {
@@ -168,6 +170,13 @@ private:
                   edges[i],
                   points[i]);
     }
+  }
+
+  void
+  fit(const int* weighted, Surroundings* surroundings, FitResult& result)
+  {
+    fit_(samples_.data(), samples_.size(), weighted, result);
+    logarithmic_.improve(weighted, surroundings, samples_, result);
   }
 
   /** See NearestFinder::findGap: of points between ends that are not much farther apart
@@ -289,7 +298,7 @@ private:
     }
     FitResult result;
     if (has_any)
-      fit_(samples_.data(), samples_.size(), weighted, result);
+      fit(weighted, surroundings, result);
     for (std::size_t lane = 0; lane < count; ++lane) {
       if (weighted[lane] == 0)
         continue;
@@ -444,10 +453,7 @@ private:
       std::fill(coordinate + count, coordinate + directions, 0.0f);
     clear(lane, count);
     surroundings.radius = radius;
-    surroundings.value_range = static_cast<double>(highest) - lowest;
-    surroundings.edge_span =
-        std::abs(static_cast<double>(values[edge.second]) - values[edge.first]) /
-        surroundings.value_range;
+    surroundings.values = {lowest, highest, {values[edge.first], values[edge.second]}};
     surroundings.has_steps = areLabels(values, neighbors, count);
     surroundings.support =
         judgeSupport(surroundings,
@@ -468,6 +474,7 @@ private:
   std::vector<DoubtfulFit> flat_; ///< maybe: no samples are seen beside a plane
   std::vector<FitSample> samples_;
   FitKernel fit_;
+  LogarithmicFits logarithmic_;
   LeftOutLines left_out_;
   float isovalue_;
   double last_radius_ = 0.0; ///< of a support found before

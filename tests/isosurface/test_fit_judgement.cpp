@@ -21,8 +21,7 @@ makeSurroundings()
   Surroundings surroundings{};
   surroundings.edge_length = 1.0;
   surroundings.radius = 2.0;
-  surroundings.value_range = 10.0;
-  surroundings.edge_span = 0.3;
+  surroundings.values = {0.0, 10.0, {3.0, 6.0}};
   return surroundings;
 }
 
@@ -57,9 +56,9 @@ TEST(FitJudgement, ResidualsAreAStepWhereTheEdgeSpansMostOfTheValues)
                            Case{0.61, 0.059, false},
                            Case{0.61, 0.061, true}}) {
     Surroundings surroundings = makeSurroundings();
-    surroundings.edge_span = look.span;
+    surroundings.values.edge[1] = 3.0 + 10.0 * look.span;
     FitResult fit = makeFit();
-    fit.residual[0] = look.residual * surroundings.value_range;
+    fit.residual[0] = look.residual * surroundings.values.range();
     EXPECT_EQ(look.is_step ? RootOutcome::Step : RootOutcome::Cubic,
               judge(fit, 0, surroundings))
         << look.span << ' ' << look.residual;
@@ -100,7 +99,7 @@ TEST(FitJudgement, JumpsKeepFitsInAMetricBesideTheirEdge)
 {
   const auto isFar = [](double span, double shift, double error) {
     Surroundings surroundings = makeSurroundings();
-    surroundings.edge_span = span;
+    surroundings.values.edge[1] = 3.0 + 10.0 * span;
     FitResult fit = makeFit();
     fit.offset[2][0] = shift / surroundings.radius;
     fit.error[0] = error;
