@@ -90,7 +90,8 @@ addClouds(const std::vector<CloudItem>& items,
     file.scene.splats.push_back({clouds[i].splats,
                                  std::move(clouds[i].colors),
                                  looks[i].material,
-                                 clouds[i].two_sided});
+                                 clouds[i].two_sided,
+                                 std::move(clouds[i].rims)});
   }
   file.origin = {origin.x(), origin.y(), origin.z()};
 }

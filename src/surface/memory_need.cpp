@@ -186,7 +186,7 @@ splatsNeed(double points, double splats, bool has_normals)
   forecast.hold(accepted);
   forecast.run({grown_part * (sizeof(GrownSplat) + passed_over_bytes) * splats, 0.0});
   forecast.release(forecast.getHeld() - oriented - accepted);
-  const double kept = (sizeof(PointSplat) + index_bytes) * splats;
+  const double kept = (sizeof(PointSplat) + index_bytes + sizeof(PackedRim)) * splats;
   forecast.hold(index_bytes * points + kept); // which splat is that of a sample
   return {forecast.getPeak(), kept};
 }

@@ -23,7 +23,7 @@ estimateSplats(const CloudView& cloud,
                unsigned threads);
 
 /** \brief The memory of SplatGeneration besides the cloud: 166 to 174 bytes per point,
- * 130 per splat while they are grown, of which 84 remain.
+ * 130 per splat while they are grown, of which 88 remain.
  * \param has_normals the cloud has some: they need not be estimated */
 PCL_UVOL_EXPORTS MemoryNeed
 splatsNeed(double points, double splats, bool has_normals);

@@ -50,6 +50,36 @@ packLine(const RimLine& line, float radius)
          static_cast<std::uint32_t>(std::min(depth, rim_depth_steps - 1.0f));
 }
 
+constexpr std::uint32_t line_bits = 0xffff, depth_bits = rim_depth_steps - 1;
+
+Eigen::Vector2f
+unpackDirection(std::uint32_t line)
+{
+  constexpr float per_quarter = 4.0f / rim_directions;
+  const float quarters = per_quarter * static_cast<float>(line >> rim_depth_bits);
+  const float along = std::abs(quarters - 2.0f) - 1.0f;
+  const float across = 1.0f - std::abs(along);
+  return {along, quarters <= 2.0f ? across : -across};
+}
+
+RimLine
+unpackLine(std::uint32_t line)
+{
+  if (line == 0)
+    return {};
+  const auto depth = static_cast<float>(line & depth_bits);
+  return {unpackDirection(line).normalized(), 1.0f - depth / rim_depth_steps};
+}
+
+std::uint32_t
+turnLine(std::uint32_t line, const Eigen::Matrix2f& axes)
+{
+  if (line == 0)
+    return 0;
+  const Eigen::Vector2f turned = axes.transpose() * unpackDirection(line);
+  return packDirection(turned) << rim_depth_bits | (line & depth_bits);
+}
+
 /** Whether a place lies beyond a line, and rather straight ahead. */
 bool
 haveOneBeyond(const std::vector<Eigen::Vector2f>& places, const RimLine& line)
@@ -123,6 +153,18 @@ PackedRim
 packRim(const RimLines& lines, float radius)
 {
   return packLine(lines[0], radius) | packLine(lines[1], radius) << 16;
+}
+
+RimLines
+unpackRim(PackedRim rim)
+{
+  return {unpackLine(rim & line_bits), unpackLine(rim >> 16)};
+}
+
+PackedRim
+turnRim(PackedRim rim, const Eigen::Matrix2f& axes)
+{
+  return turnLine(rim & line_bits, axes) | turnLine(rim >> 16, axes) << 16;
 }
 
 float

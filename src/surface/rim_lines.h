@@ -31,6 +31,15 @@ using PackedRim = std::uint32_t;
 PCL_UVOL_EXPORTS PackedRim
 packRim(const RimLines& lines, float radius);
 
+/** \brief Lines whose distances are parts of the radius. */
+PCL_UVOL_EXPORTS RimLines
+unpackRim(PackedRim rim);
+
+/** \brief The same lines in other axes, their directions rounded once more.
+ * \param axes the new ones in the old ones, as columns */
+PCL_UVOL_EXPORTS PackedRim
+turnRim(PackedRim rim, const Eigen::Matrix2f& axes);
+
 /** \brief Finds the rim lines of one disc after another. These are sides of the convex
  * hull of the points about the disc, moved outwards, if no other points lie beyond. */
 class PCL_UVOL_EXPORTS RimFinder {

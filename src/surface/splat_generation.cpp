@@ -98,9 +98,10 @@ randomOrder(std::size_t count, unsigned threads)
   return order;
 }
 
-/** A splat, and the sample it is grown from. */
+/** A splat, the sample it is grown from, and what ends it. */
 struct Accepted {
   std::uint32_t sample;
+  PackedRim rim;
   PointSplat splat;
 };
 
@@ -152,7 +153,7 @@ coverSurface(const SplatGround& ground, unsigned threads, Report& report)
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       if (passed_over[candidates[i]])
         continue;
-      accepted.push_back({candidates[i], grown[i].splat});
+      accepted.push_back({candidates[i], grown[i].rim, grown[i].splat});
       widened += grown[i].widened ? 1 : 0;
       for (const std::uint32_t sample : grown[i].passed_over)
         passed_over[sample] = 1;
@@ -180,6 +181,7 @@ growOn(const OrientedPoints& points,
       std::move(footprints.nearest),
       leastRadii(
           *points.samples, std::move(footprints.radii), delta, largest_alone, threads),
+      std::move(footprints.rims),
       delta,
       parameters.lambda};
   return coverSurface(ground, threads, report);
@@ -248,14 +250,21 @@ detail::generateSplats(const CloudView& cloud,
   Splats splats;
   splats.two_sided = points.two_sided;
   splats.cloud.reserve(accepted.size());
+  const bool has_rims =
+      std::any_of(accepted.begin(), accepted.end(), [](const Accepted& grown) {
+        return grown.rim != 0;
+      });
   for (std::uint32_t sample = 0; sample < splat_of.size(); ++sample) {
     if (splat_of[sample] == none)
       continue;
-    const PointSplat splat = toInput(accepted[splat_of[sample]].splat, unit);
+    const Accepted& grown = accepted[splat_of[sample]];
+    const PointSplat splat = toInput(grown.splat, unit);
     if (!(splat.radius > 0.0f) || !std::isfinite(splat.radius)) // in the input's unit
       continue;
     splats.cloud.push_back(splat);
     splats.sources.push_back(points.samples->getInputIndex(sample));
+    if (has_rims)
+      splats.rims.push_back(grown.rim);
   }
   warnOfBadSplats(accepted.size(), splats, report);
   return splats;

@@ -248,6 +248,18 @@ SplatGrower::fitNormals(PointSplat& splat) const
       static_cast<float>(scale * (s * s * uu - 2.0 * c * s * uv + c * c * vv));
 }
 
+PackedRim
+SplatGrower::rimOf(std::uint32_t sample, const PointSplat& splat) const
+{
+  if (ground_.rims[sample] == 0 || splat.radius > ground_.least_radii[sample])
+    return 0;
+  Eigen::Matrix<float, 3, 2> axes;
+  axes << splat.getTangentVector3fMap(),
+      splat.getNormalVector3fMap().cross(splat.getTangentVector3fMap());
+  return turnRim(ground_.rims[sample],
+                 tangentAxes(ground_.points.normals[sample]).transpose() * axes);
+}
+
 GrownSplat
 SplatGrower::grow(std::uint32_t sample)
 {
@@ -283,6 +295,7 @@ SplatGrower::grow(std::uint32_t sample)
     if (point.distance <= splat.radius && std::abs(point.offset[2]) <= splat.radius)
       splat.error = std::max(splat.error, std::abs(point.offset[2] - middle));
   fitNormals(splat);
+  grown.rim = rimOf(sample, splat);
   return grown;
 }
 

@@ -24,6 +24,8 @@ struct SplatGround {
   std::vector<NearestPoints> nearest;
   /** The least radius of a splat about every point: that of its Voronoi cell. */
   std::vector<float> least_radii;
+  /** What ends a splat of that radius, in the axes that tangentAxes() gives. */
+  std::vector<PackedRim> rims;
   double delta; ///< a length
   double lambda;
 };
@@ -31,6 +33,7 @@ struct SplatGround {
 struct GrownSplat {
   PointSplat splat;
   bool widened = false; ///< it has its least radius, which delta or a rim forbids
+  PackedRim rim = 0;    ///< what ends it, in its own axes
   /** Other points that need no splat of their own. */
   std::vector<std::uint32_t> passed_over;
 };
@@ -96,6 +99,10 @@ private:
 
   void
   fitNormals(PointSplat& splat) const;
+
+  /** What ends a splat: one that is larger than it must be reaches no rim. */
+  PackedRim
+  rimOf(std::uint32_t sample, const PointSplat& splat) const;
 
   const SplatGround& ground_;
   std::vector<std::unique_ptr<NearestFinder>> finders_; ///< for ever more neighbours

@@ -40,6 +40,8 @@ takeDrawable(Splats&& splats, Report& report)
     if (isDrawable(splats.cloud[i])) {
       drawable.cloud.push_back(splats.cloud[i]);
       drawable.sources.push_back(splats.sources[i]);
+      if (!splats.rims.empty())
+        drawable.rims.push_back(splats.rims[i]);
     }
   warnOfBadSplats(splats.cloud.size(), drawable, report);
   return drawable;
@@ -129,6 +131,8 @@ withDots(Splats&& splats, const Splats& dots, unsigned threads)
     joined.cloud.push_back(dots.cloud[i]);
     joined.sources.push_back(dots.sources[i]);
   }
+  if (!joined.rims.empty())
+    joined.rims.resize(joined.cloud.size(), 0);
   return joined;
 }
 

@@ -4,6 +4,7 @@
 
 #include <pcl/conversions.h>
 
+#include <algorithm>
 #include <filesystem>
 
 using namespace pcl_uvol;
@@ -384,6 +385,20 @@ TEST_F(SceneItems, PointsAreCoveredBySplats)
   const std::vector<Rgba> colors =
       load("cloud s.csv lambda 0 color x").scene.splats[0].colors;
   EXPECT_EQ(colors.size(), 441u);
+}
+
+TEST_F(SceneItems, OpenSurfacesEndAtTheirRims)
+{
+  writeFile(folder_ / "sheet.csv", sheetTable(30));
+  for (const char* const place : {"", " turn 0 1 0 40 scale 3"}) {
+    const SplatObject object =
+        load(std::string("cloud sheet.csv") + place).scene.splats.at(0);
+    ASSERT_EQ(object.splats->size(), object.rims.size());
+    EXPECT_GE(std::count_if(object.rims.begin(),
+                            object.rims.end(),
+                            [](std::uint32_t rim) { return rim != 0; }),
+              4 * 29 - 4);
+  }
 }
 
 TEST_F(SceneItems, WarningsNameTheFile)

@@ -120,15 +120,16 @@ gyroidAt(const Eigen::Vector3f& x)
 }
 
 Image
-trace(double reflectivity)
+trace(const SurfaceCloudPtr& cloud, double reflectivity)
 {
   pcl_uvol::SplatGeneration<pcl::PointNormal> generation;
-  generation.setInputCloud(uvol_test::makeTorusKnot(9000, 3));
+  generation.setInputCloud(cloud);
   const pcl::PointCloud<pcl_uvol::PointSplat>::Ptr splats(
       new pcl::PointCloud<pcl_uvol::PointSplat>);
   generation.compute(*splats);
   pcl_uvol::SplatObject object;
   object.splats = splats;
+  object.rims = generation.getRims();
   object.material.reflectivity = reflectivity;
   pcl_uvol::Scene scene;
   scene.splats.push_back(object);
@@ -153,8 +154,9 @@ const Subject subjects[] = {
                    {1.5, 2.0}),
            {1.0, 0.4});
      }},
-    {"traced_knot", [] { return trace(0.0); }},
-    {"traced_mirror", [] { return trace(0.6); }},
+    {"traced_knot", [] { return trace(uvol_test::makeTorusKnot(9000, 3), 0.0); }},
+    {"traced_mirror", [] { return trace(uvol_test::makeTorusKnot(9000, 3), 0.6); }},
+    {"traced_rims", [] { return trace(uvol_test::makeWaves(1500, 1), 0.0); }},
 };
 
 class GoldenSubject : public testing::TestWithParam<Subject> {};

@@ -4,8 +4,10 @@
 #include "render/tracer_setup.h"
 #include "support/environment.h"
 #include "support/surfaces.h"
+#include "surface/rim_lines.h"
 #include "surface/splat_input.h"
 #include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/render/image_space/image_space_renderer.h>
 #include <pcl_uvol/surface/splat_generation.h>
 
 #include <algorithm>
@@ -159,6 +161,124 @@ TEST(SplatTracing, CracksBetweenSplatsDoNotShowTheInsideOfWhatIsBehind)
                       discAt({1.2, 0.6, 0.0}, {0, 0, 1}, 1.0),
                       discAt({1.2, -0.6, 0.0}, {0, 0, 1}, 1.0)},
                      -1.0));
+}
+
+/** A red disc of radius 2 that ends at 1 along its tangent and at -0.5 across, over a
+ * green floor, tilted with it. */
+struct CutDisc {
+  pcl_uvol::PointSplat splat = discAt({1, 2, 3}, {0.3, -0.5, 1.0}, 2.0);
+  Vector n = splat.getNormalVector3fMap().cast<double>(),
+         u = splat.getTangentVector3fMap().cast<double>(), v = n.cross(u),
+         center = splat.getVector3fMap().cast<double>();
+  Scene scene = sceneOf({splat}, {red});
+
+  CutDisc()
+  {
+    scene.splats[0].rims = {
+        pcl_uvol::packRim({pcl_uvol::RimLine{Eigen::Vector2f(1.0f, 0.0f), 1.0f},
+                           pcl_uvol::RimLine{Eigen::Vector2f(0.0f, -1.0f), 0.5f}},
+                          2.0f)};
+    scene.planes.push_back({center - n, n, glowing(0.0f, 1.0f, 0.0f), 0.0, {}});
+  }
+
+  /** A place in the plane of the disc, so high above it. */
+  Vector
+  at(double along, double across, double height) const
+  {
+    return center + along * u + across * v + height * n;
+  }
+
+  /** The channel of a ray straight down. */
+  double
+  seenAt(double along, double across, int channel) const
+  {
+    return channelAt(
+        trace(scene, looking(at(along, across, 9), at(along, across, 0), 0.001, u), 1),
+        0,
+        0,
+        channel);
+  }
+};
+
+TEST(SplatTracing, DiscsEndAtTheLinesOfRims)
+{
+  const CutDisc disc;
+  constexpr double near = 1e-3;
+  for (const auto& [along, across] : {std::pair(1.0, 0.0), {1.0, 0.9}, {1.0, -0.4}}) {
+    EXPECT_NEAR(1.0, disc.seenAt(along - near, across, 0), step);
+    EXPECT_NEAR(1.0, disc.seenAt(along + near, across, 1), step);
+  }
+  for (const auto& [along, across] :
+       {std::pair(0.0, -0.5), {0.9, -0.5}, {-1.5, -0.5}}) {
+    EXPECT_NEAR(1.0, disc.seenAt(along, across + near, 0), step);
+    EXPECT_NEAR(1.0, disc.seenAt(along, across - near, 1), step);
+  }
+  EXPECT_NEAR(1.0, disc.seenAt(-2.0 + near, 0.0, 0), step); // where no line is
+  EXPECT_NEAR(1.0, disc.seenAt(-2.0 - near, 0.0, 1), step);
+}
+
+TEST(SplatTracing, WhatLinesOfRimsCutOffThrowsNoShadow)
+{
+  CutDisc disc;
+  disc.scene.planes[0].material.ambient = 0.0;
+  disc.scene.planes[0].material.diffuse = 1.0;
+  disc.scene.lights = {lightFrom(disc.n, pcl_uvol::Light::Kind::Directional)};
+  // From the side, below the disc, whose shadow is straight below it.
+  const auto brightness = [&](double along, double across) {
+    const Camera camera = looking(disc.at(along + 9.0, across, -0.9),
+                                  disc.at(along, across, -1.0),
+                                  0.001,
+                                  disc.n);
+    return channelAt(trace(disc.scene, camera, 1), 0, 0, 1);
+  };
+  constexpr double near = 1e-2;
+  EXPECT_NEAR(0.0, brightness(1.0 - near, 0.0), step);
+  EXPECT_NEAR(1.0, brightness(1.0 + near, 0.0), step);
+  EXPECT_NEAR(0.0, brightness(0.0, -0.5 + near), step);
+  EXPECT_NEAR(1.0, brightness(0.0, -0.5 - near), step);
+  EXPECT_NEAR(0.0, brightness(-2.0 + near, 0.0), step);
+  EXPECT_NEAR(1.0, brightness(-2.0 - near, 0.0), step);
+}
+
+TEST(SplatTracing, ThereAreAsManyRimsAsSplats)
+{
+  CutDisc disc;
+  disc.scene.splats[0].rims.push_back(0);
+  EXPECT_THROW(disc.seenAt(0.0, 0.0, 0), pcl_uvol::InvalidArgument);
+}
+
+TEST(SplatTracing, OpenSurfacesEndWhereTheyDoInImageSpace)
+{
+  const auto sheet = makeWaves(1500, 1);
+  pcl_uvol::ImageSpaceRenderer<pcl::PointNormal> renderer;
+  renderer.setInputCloud(sheet);
+  pcl_uvol::SplatGeneration<pcl::PointNormal> generation;
+  generation.setInputCloud(sheet);
+  const pcl::PointCloud<pcl_uvol::PointSplat>::Ptr splats(
+      new pcl::PointCloud<pcl_uvol::PointSplat>);
+  generation.compute(*splats);
+  const Camera camera = looking({0.5, -4.0, 6.0}, {0, 0, 0}, 22.0);
+  constexpr int size = 400;
+  renderer.setSize(size, size);
+  renderer.setCamera(camera);
+  renderer.settings().background.kind = pcl_uvol::Background::Kind::Transparent;
+  Image flat;
+  renderer.render(flat);
+  const auto countDifferent = [&](const std::vector<std::uint32_t>& rims) {
+    Scene scene;
+    scene.background.kind = pcl_uvol::Background::Kind::Transparent;
+    pcl_uvol::SplatObject object;
+    object.splats = splats;
+    object.rims = rims;
+    scene.splats.push_back(object);
+    const Image traced = trace(scene, camera, size);
+    int different = 0;
+    for (std::size_t i = 3; i < traced.color.size(); i += 4)
+      different += (traced.color[i] > 127) != (flat.color[i] > 127) ? 1 : 0;
+    return different;
+  };
+  const int whole = countDifferent({}), cut = countDifferent(generation.getRims());
+  EXPECT_LT(20 * cut, whole);
 }
 
 TEST(SplatTracing, OverlappingSplatsAreAveraged)

@@ -3,10 +3,13 @@
 #include "support/surfaces.h"
 #include "surface/footprints.h"
 #include <pcl_uvol/common/point_types.h>
+#include <pcl_uvol/surface/splat_generation.h>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <numeric>
@@ -57,6 +60,36 @@ TEST(RimLines, ArePackedToAHundredthOrLeftOut)
     EXPECT_LE(unpacked.distance, distance / radius + 1.01f / rim_depth_steps);
     EXPECT_EQ(infinite, unpackLine(second, 0).distance);
   }
+}
+
+TEST(RimLines, TurnWithTheirAxes)
+{
+  constexpr float circle = 6.2831853f, step = 0.5f * 4.0f * 2.0f / 512.0f;
+  for (int i = 0; i < 500; ++i) {
+    const float angle = circle * static_cast<float>(i) / 500.0f;
+    const Vector2f outwards(std::cos(angle), std::sin(angle));
+    const PackedRim rim = packRim({RimLine{outwards, 0.3f}, RimLine{}}, 1.0f),
+                    both = rim | packRim({RimLine{-outwards, 0.9f}, {}}, 1.0f) << 16;
+    for (int line = 0; line < 2; ++line) {
+      const RimLine unpacked = unpackRim(both)[static_cast<std::size_t>(line)],
+                    expected = unpackLine(both, line);
+      EXPECT_LT((unpacked.outwards - expected.outwards).norm(), 1e-6f);
+      EXPECT_EQ(unpacked.distance, expected.distance);
+    }
+    EXPECT_EQ(both, turnRim(both, Eigen::Matrix2f::Identity()));
+    const float turn = 0.01f * static_cast<float>(i);
+    const Eigen::Matrix2f axes = Eigen::Rotation2Df(turn).toRotationMatrix();
+    const PackedRim turned = turnRim(both, axes);
+    for (int line = 0; line < 2; ++line) {
+      const RimLine before = unpackLine(both, line), after = unpackLine(turned, line);
+      EXPECT_LT((axes * after.outwards - before.outwards).norm(), step);
+      EXPECT_EQ(before.distance, after.distance);
+    }
+    const PackedRim one = turnRim(rim, axes);
+    EXPECT_EQ(std::numeric_limits<float>::infinity(), unpackRim(one)[1].distance);
+    EXPECT_EQ(0u, one >> 16);
+  }
+  EXPECT_EQ(0u, turnRim(0, Eigen::Matrix2f::Identity()));
 }
 
 /** The lattice points but the centre that satisfy a condition. */
@@ -165,6 +198,20 @@ public:
                      isInside(unpackLine(footprints_.rims[i], 1));
     }
     return cover;
+  }
+
+  /** The lines of a point in space, as vectors of their distance in radii. */
+  std::array<Vector3f, 2>
+  linesOf(std::uint32_t input_index) const
+  {
+    std::array<Vector3f, 2> lines;
+    for (std::size_t i = 0; i < footprints_.rims.size(); ++i)
+      if (points_.samples->getInputIndex(i) == input_index)
+        for (int k = 0; k < 2; ++k)
+          lines[static_cast<std::size_t>(k)] =
+              tangentAxes(points_.normals[i]) *
+              unpackLine(footprints_.rims[i], k).outwards;
+    return lines;
   }
 
 private:
@@ -315,6 +362,45 @@ TEST(RimLines, OpenNoEdgeOfACube)
       ASSERT_EQ(by_whole, by_cut) << n << ": " << place.transpose();
     }
   }
+}
+
+TEST(RimLines, EndSplatsAsTheyEndDiscs)
+{
+  const auto sheet = uvol_test::makeWaves(2000, 3);
+  const Discs discs(*sheet);
+  const std::vector<PackedRim> of_discs = discs.rims();
+  SplatGeneration<pcl::PointNormal> generation;
+  generation.setInputCloud(sheet);
+  pcl::PointCloud<PointSplat> splats;
+  generation.compute(splats);
+  const std::vector<PackedRim>& rims = generation.getRims();
+  ASSERT_EQ(splats.size(), rims.size());
+  std::size_t cut = 0;
+  for (std::size_t i = 0; i < splats.size(); ++i) {
+    if (rims[i] == 0)
+      continue;
+    ++cut;
+    const std::uint32_t source = generation.getSources()[i];
+    const Vector3f u = splats[i].getTangentVector3fMap(),
+                   v = splats[i].getNormalVector3fMap().cross(u);
+    const std::array<Vector3f, 2> lines = discs.linesOf(source);
+    for (int k = 0; k < 2; ++k) {
+      const RimLine line = unpackLine(rims[i], k);
+      EXPECT_EQ(unpackLine(of_discs[source], k).distance, line.distance);
+      if (line.distance < 1.0f) {
+        EXPECT_LT((line.outwards[0] * u + line.outwards[1] * v -
+                   lines[static_cast<std::size_t>(k)])
+                      .norm(),
+                  0.01f);
+      }
+    }
+  }
+  EXPECT_GE(cut, discs.countCut() * 9 / 10);
+  EXPECT_LE(cut, discs.countCut());
+
+  generation.setInputCloud(uvol_test::makeSphere(2000, 1));
+  generation.compute(splats);
+  EXPECT_TRUE(generation.getRims().empty());
 }
 
 TEST(RimLines, DependOnNeitherThreadsNorUnitNorOrder)

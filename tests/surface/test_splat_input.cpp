@@ -130,6 +130,14 @@ TEST(SplatsOfPictures, IsopointsInGapsAreDotsWhereNothingCoversThem)
   EXPECT_EQ(2u, report.getCount("bridged"));
   EXPECT_EQ(0, std::count(splats.sources.begin(), splats.sources.end(), 900u));
   EXPECT_EQ(1, std::count(splats.sources.begin(), splats.sources.end(), 901u));
+  // The square ends at its sides.
+  ASSERT_EQ(splats.cloud.size(), splats.rims.size());
+  for (std::size_t i = 0; i < splats.rims.size(); ++i) {
+    const std::uint32_t row = splats.sources[i] / 30, column = splats.sources[i] % 30;
+    const bool is_corner = row % 29 == 0 && column % 29 == 0;
+    EXPECT_TRUE(!is_corner || row == 30 || splats.rims[i] != 0) << row << ' ' << column;
+  }
+  EXPECT_EQ(0u, splats.rims.back()); // the dot
 }
 
 TEST(SplatGeneration, OnePointHasNoExtentThatDeltaIsAPartOf)

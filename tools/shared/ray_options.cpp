@@ -131,6 +131,7 @@ makeSplatScene(const pcl_uvol::CloudView& cloud,
       pcl::make_shared<pcl::PointCloud<pcl_uvol::PointSplat>>(std::move(splats.cloud));
   object.material = material;
   object.two_sided = splats.two_sided;
+  object.rims = std::move(splats.rims);
   pcl_uvol::Scene scene;
   addWithDots(std::move(object), cloud, splats.sources, side, scene);
   return scene;

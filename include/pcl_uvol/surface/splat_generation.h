@@ -55,6 +55,9 @@ struct Splats {
   pcl::PointCloud<PointSplat> cloud;
   std::vector<std::uint32_t> sources;
   bool two_sided = false; ///< their normals have no meaningful sign
+  /** What ends discs at the rims of the surface, one per splat, for SplatObject; empty:
+   * all are whole. */
+  std::vector<std::uint32_t> rims;
 };
 
 namespace detail {
@@ -160,8 +163,16 @@ public:
     return sources_;
   }
 
+  /** \brief What ends the disc of every splat at the rims of the surface, for the ray
+   * tracer (SplatObject::rims); empty if all are whole. */
+  const std::vector<std::uint32_t>&
+  getRims() const
+  {
+    return rims_;
+  }
+
 private:
-  std::vector<std::uint32_t> sources_;
+  std::vector<std::uint32_t> sources_, rims_;
 };
 
 template <typename PointT>
@@ -177,6 +188,7 @@ SplatGeneration<PointT>::compute(pcl::PointCloud<PointSplat>& splats)
         splats = std::move(generated.cloud);
         splats.header = this->input_->header;
         sources_ = std::move(generated.sources);
+        rims_ = std::move(generated.rims);
       });
 }
 

@@ -218,6 +218,7 @@ private:
     object.material.transparency = rays_->transparent;
     object.material.refractive_index = rays_->index;
     object.two_sided = splats.two_sided;
+    object.rims = splats.rims;
     addWithDots(std::move(object),
                 cloud_,
                 splats.sources,

@@ -29,6 +29,8 @@ addWithDots(SplatObject&& object,
     (is_dot ? small : covering).push_back((*object.splats)[i]);
     (is_dot ? dots : surface)
         .colors.push_back(is_dot ? makePaler(color, scene.background.color) : color);
+    if (!is_dot && !object.rims.empty())
+      surface.rims.push_back(object.rims[i]);
     if (is_dot)
       small.back().radius *= growth;
   }

@@ -47,6 +47,10 @@ checkSplats(const SplatObject& object)
     throw InvalidArgument("An object of " + std::to_string(object.splats->size()) +
                           " splats has " + std::to_string(object.colors.size()) +
                           " colours.");
+  if (!object.rims.empty() && object.rims.size() != object.splats->size())
+    throw InvalidArgument("An object of " + std::to_string(object.splats->size()) +
+                          " splats has " + std::to_string(object.rims.size()) +
+                          " rims.");
   for (const PointSplat& splat : *object.splats)
     if (!isDrawable(splat))
       throw InvalidArgument("An object has a splat that is not finite, without normal "

@@ -49,6 +49,7 @@ coverCloud(const Dataset& dataset,
   SceneCloud cloud;
   cloud.splats = pcl::make_shared<pcl::PointCloud<PointSplat>>(std::move(splats.cloud));
   cloud.sources = std::move(splats.sources);
+  cloud.rims = std::move(splats.rims);
   cloud.two_sided = splats.two_sided;
   cloud.box = findBox(view);
   cloud.origin = Eigen::Map<const Eigen::Vector3d>(dataset.origin.data());

@@ -48,9 +48,10 @@ struct SceneCloud {
   pcl::PointCloud<PointSplat>::Ptr splats;
   std::vector<std::uint32_t> sources; ///< points of the cloud, per splat
   std::vector<Rgba> colors;
-  bool two_sided = false;  ///< see SplatObject
-  Eigen::AlignedBox3d box; ///< of the finite points
-  Eigen::Vector3d origin;  ///< of their coordinates
+  std::vector<std::uint32_t> rims; ///< see SplatObject
+  bool two_sided = false;          ///< see SplatObject
+  Eigen::AlignedBox3d box;         ///< of the finite points
+  Eigen::Vector3d origin;          ///< of their coordinates
 };
 
 /** \brief Cover a cloud by splats, unless it has some.

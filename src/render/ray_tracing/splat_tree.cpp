@@ -4,6 +4,7 @@
 #include "common/dispatch.h"
 #include "common/parallel.h"
 #include "render/ray_tracing/tree_builder.h"
+#include "surface/rim_lines.h"
 
 #include <Eigen/Geometry>
 
@@ -112,6 +113,22 @@ fieldAt(const SplatRecord& splat, const Eigen::Vector3f& place)
          (splat.tilt[1] + splat.slope[1] * offset.dot(v)) * v;
 }
 
+/** Of a splat of a leaf. */
+void
+setRim(const SplatRecord& splat, PackedRim rim, std::size_t place, LeafRims& rims)
+{
+  const RimLines lines = unpackRim(rim);
+  const Eigen::Vector3f u = toVector(splat.tangent),
+                        v = toVector(splat.normal).cross(u);
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    const Eigen::Vector3f outwards =
+        lines[k].outwards[0] * u + lines[k].outwards[1] * v;
+    for (int axis = 0; axis < 3; ++axis)
+      rims.outwards[k][axis][place] = outwards[axis];
+    rims.distance[k][place] = splat.radius * lines[k].distance;
+  }
+}
+
 } // namespace
 
 SplatTree::SplatTree(const SplatObject& object, unsigned threads, StepTimer& step)
@@ -164,6 +181,24 @@ SplatTree::SplatTree(const SplatObject& object, unsigned threads, StepTimer& ste
       }
     }
   });
+  if (!object.rims.empty())
+    addRims(object.rims, tree);
+}
+
+void
+SplatTree::addRims(const std::vector<std::uint32_t>& rims, const WideTree& tree)
+{
+  rims_of_leaf_.assign(leaves_.size(), no_rims);
+  for (std::size_t leaf = 0; leaf < leaves_.size(); ++leaf) {
+    const std::uint32_t* const items = &tree.items[tree.leaf_begin[leaf]];
+    const std::size_t count = tree.leaf_begin[leaf + 1] - tree.leaf_begin[leaf];
+    if (std::none_of(items, items + count, [&](auto item) { return rims[item] != 0; }))
+      continue;
+    rims_of_leaf_[leaf] = static_cast<std::uint32_t>(rims_.size());
+    rims_.emplace_back();
+    for (std::size_t i = 0; i < count; ++i)
+      setRim(splats_[leaf * tree_width + i], rims[items[i]], i, rims_.back());
+  }
 }
 
 std::optional<double>

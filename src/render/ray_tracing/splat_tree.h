@@ -23,6 +23,8 @@
 
 namespace pcl_uvol {
 
+struct WideTree;
+
 /** \brief A splat in the order of the tree: one line of the cache. */
 struct alignas(64) SplatRecord {
   float center[3], normal[3], tangent[3];
@@ -51,7 +53,8 @@ struct SplatSurfaceHit {
       bend; ///< sine of the angle that the surface's normals turn by within the splat
 };
 
-/** \brief Built once. Memory: about 200 bytes per splat. */
+/** \brief Built once. Memory: about 200 bytes per splat, and 32 to 512 per splat that
+ * ends at a rim. */
 class SplatTree {
 public:
   /** \param step of the splats */
@@ -134,10 +137,18 @@ private:
   TreeRay
   localRay(const Ray& ray, double entry, double near, double far) const;
 
+  /** \param rims of the splats, in their order
+   * \param tree that tells which splats are in which leaf */
+  void
+  addRims(const std::vector<std::uint32_t>& rims, const WideTree& tree);
+
   TreeArrays
   arrays() const
   {
-    return {nodes_.data(), leaves_.data()};
+    return {nodes_.data(),
+            leaves_.data(),
+            rims_.empty() ? nullptr : rims_of_leaf_.data(),
+            rims_.data()};
   }
 
   const SplatTreeKernels* kernels_;
@@ -147,6 +158,8 @@ private:
   std::vector<TreeNode> nodes_;
   std::vector<TreeLeaf> leaves_;
   std::vector<SplatRecord> splats_; ///< tree_width per leaf
+  std::vector<std::uint32_t> rims_of_leaf_;
+  std::vector<LeafRims> rims_; ///< of the leaves that have some
 };
 
 } // namespace pcl_uvol

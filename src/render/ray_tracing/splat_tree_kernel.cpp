@@ -106,8 +106,9 @@ public:
   /** One bit per splat of a leaf that the ray meets before far.
    * \param distance, sq_offset of every splat that is met */
   std::uint32_t
-  meet(const TreeLeaf& leaf, float* distance, float* sq_offset) const
+  meet(std::uint32_t number, float* distance, float* sq_offset) const
   {
+    const TreeLeaf& leaf = tree_.leaves[number];
     std::uint32_t met = 0;
     for (int first = 0; first < tree_width; first += lanes) {
       Floats along{}, across{};
@@ -132,10 +133,37 @@ public:
       store(sq_offset + first, sq);
       met |= laneBits(is_met) << first;
     }
-    return met;
+    return met == 0 || tree_.rims_of_leaf == nullptr
+               ? met
+               : met & withinRims(number, distance);
   }
 
 private:
+  /** Of the splats of a leaf, whose planes the ray meets at these distances. */
+  std::uint32_t
+  withinRims(std::uint32_t number, const float* distance) const
+  {
+    if (tree_.rims_of_leaf[number] == no_rims)
+      return ~0u;
+    const TreeLeaf& leaf = tree_.leaves[number];
+    const LeafRims& rims = tree_.rims[tree_.rims_of_leaf[number]];
+    std::uint32_t within = 0;
+    for (int first = 0; first < tree_width; first += lanes) {
+      Floats ahead[2]{};
+      for (int axis = 0; axis < 3; ++axis) {
+        const Floats offset = ray_.origin[axis] +
+                              load<Floats>(distance + first) * ray_.direction[axis] -
+                              load<Floats>(leaf.center[axis] + first);
+        for (int line = 0; line < 2; ++line)
+          ahead[line] += load<Floats>(rims.outwards[line][axis] + first) * offset;
+      }
+      within |= laneBits((ahead[0] <= load<Floats>(rims.distance[0] + first)) &
+                         (ahead[1] <= load<Floats>(rims.distance[1] + first)))
+                << first;
+    }
+    return within;
+  }
+
   /** Of the splats of a leaf from the first one on. */
   Ints
   looksToEye(const TreeLeaf& leaf, int first) const
@@ -203,7 +231,7 @@ collect(const TreeArrays& tree,
   alignas(64) float distance[tree_width], sq_offset[tree_width], behind[tree_width];
   traversal.run([&](std::uint32_t number) {
     const TreeLeaf& leaf = tree.leaves[number];
-    std::uint32_t met = traversal.meet(leaf, distance, sq_offset);
+    std::uint32_t met = traversal.meet(number, distance, sq_offset);
     if (met == 0)
       return true;
     for (int first = 0; first < tree_width; first += lanes)
@@ -263,7 +291,7 @@ isBlocked(const TreeArrays& tree, const TreeRay& ray)
   alignas(64) float distance[tree_width], sq_offset[tree_width];
   traversal.run([&](std::uint32_t number) {
     const TreeLeaf& leaf = tree.leaves[number];
-    std::uint32_t met = traversal.meet(leaf, distance, sq_offset);
+    std::uint32_t met = traversal.meet(number, distance, sq_offset);
     for (; met != 0 && !is_blocked; met &= met - 1) {
       const int i = __builtin_ctz(met);
       is_blocked = !isOwn(ray, leaf, i, distance[i]);

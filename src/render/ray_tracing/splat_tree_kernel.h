@@ -30,10 +30,21 @@ struct alignas(64) TreeLeaf {
   float center[3][tree_width], normal[3][tree_width], sq_radius[tree_width];
 };
 
+/** \brief Lines at which the discs of a leaf end at the rim of the surface. */
+struct alignas(64) LeafRims {
+  float outwards[2][3][tree_width]; ///< of length 1, in the plane of the disc
+  float distance[2][tree_width];    ///< from the centre; infinite: there is no line
+};
+
+/** Number of the rims of a leaf whose discs are whole. */
+constexpr std::uint32_t no_rims = 0xffffffff;
+
 /** \brief Splat i is in leaf i / tree_width. */
 struct TreeArrays {
   const TreeNode* nodes; ///< the root first
   const TreeLeaf* leaves;
+  const std::uint32_t* rims_of_leaf = nullptr; ///< null: all discs are whole
+  const LeafRims* rims = nullptr;
 };
 
 /** \brief A ray, in the coordinates of the tree. */

@@ -27,8 +27,11 @@ struct Discs {
   WideTree tree;
   std::vector<TreeLeaf> leaves;
   std::vector<std::uint32_t> filled; ///< places of discs
+  std::vector<std::uint32_t> rims_of_leaf;
+  std::vector<LeafRims> rims;
 
-  explicit Discs(std::size_t count)
+  /** \param has_rims every other leaf has lines, one, two or none per disc */
+  explicit Discs(std::size_t count, bool has_rims = false)
   {
     std::mt19937_64 engine(count);
     std::uniform_real_distribution<double> place(-1.0, 1.0), size(0.02, 0.2);
@@ -66,18 +69,68 @@ struct Discs {
         leaves[leaf].sq_radius[i] = static_cast<float>(radii[item] * radii[item]);
         filled.push_back(static_cast<std::uint32_t>(leaf) * tree_width + i);
       }
+    if (has_rims)
+      for (std::size_t leaf = 0; leaf < leaves.size(); ++leaf) {
+        rims_of_leaf.push_back(leaf % 2 == 0 ? static_cast<std::uint32_t>(rims.size())
+                                             : no_rims);
+        if (leaf % 2 == 0)
+          rims.push_back(makeLines(leaves[leaf], engine));
+      }
   }
 
   TreeArrays
   arrays() const
   {
-    return {tree.nodes.data(), leaves.data()};
+    return {tree.nodes.data(),
+            leaves.data(),
+            rims.empty() ? nullptr : rims_of_leaf.data(),
+            rims.data()};
+  }
+
+  /** How far a place is before the nearer line of a disc. */
+  double
+  beforeLines(std::uint32_t splat, const Vector3d& offset) const
+  {
+    double distance = std::numeric_limits<double>::infinity();
+    if (rims.empty() || rims_of_leaf[splat / tree_width] == no_rims)
+      return distance;
+    const LeafRims& lines = rims[rims_of_leaf[splat / tree_width]];
+    const std::uint32_t i = splat % tree_width;
+    for (int k = 0; k < 2; ++k)
+      distance = std::min(distance,
+                          static_cast<double>(lines.distance[k][i]) -
+                              offset.dot(Vector3d(lines.outwards[k][0][i],
+                                                  lines.outwards[k][1][i],
+                                                  lines.outwards[k][2][i])));
+    return distance;
+  }
+
+private:
+  static LeafRims
+  makeLines(const TreeLeaf& leaf, std::mt19937_64& engine)
+  {
+    std::uniform_real_distribution<double> any(-1.0, 1.0);
+    LeafRims lines{};
+    for (int i = 0; i < tree_width; ++i) {
+      const Vector3d normal(leaf.normal[0][i], leaf.normal[1][i], leaf.normal[2][i]);
+      for (int k = 0; k < 2; ++k) {
+        const Vector3d random(any(engine), any(engine), any(engine));
+        const Vector3d outwards = random.cross(normal).normalized();
+        for (int axis = 0; axis < 3; ++axis)
+          lines.outwards[k][axis][i] = static_cast<float>(outwards[axis]);
+        lines.distance[k][i] =
+            i % 3 > k ? std::sqrt(leaf.sq_radius[i]) * static_cast<float>(any(engine))
+                      : std::numeric_limits<float>::infinity();
+      }
+    }
+    return lines;
   }
 };
 
 /** Where a ray meets the plane of a disc. */
 struct Meeting {
   double distance, sq_offset, radius;
+  double before_lines;
   double facing; ///< above 0 for a disc that looks to the eye
 
   Meeting(const Discs& discs, const TreeRay& ray, std::uint32_t splat)
@@ -94,7 +147,9 @@ struct Meeting {
     }
     facing = normal.dot(eye - center);
     distance = normal.dot(center - origin) / normal.dot(direction);
-    sq_offset = (origin + distance * direction - center).squaredNorm();
+    const Vector3d offset = origin + distance * direction - center;
+    sq_offset = offset.squaredNorm();
+    before_lines = discs.beforeLines(splat, offset);
     radius = std::sqrt(static_cast<double>(leaf.sq_radius[i]));
   }
 
@@ -103,6 +158,7 @@ struct Meeting {
   margin(const TreeRay& ray) const
   {
     const double met = std::min({radius - std::sqrt(sq_offset),
+                                 before_lines,
                                  distance - ray.near,
                                  static_cast<double>(ray.far) - distance});
     return ray.culls ? std::min(met, facing) : met;
@@ -138,11 +194,15 @@ randomRays(std::size_t count)
 
 constexpr double rounding = 1e-4;
 
-TEST(SplatTreeKernel, CollectsAllThatBruteForceFinds)
+class SplatTreeKernelWithRims : public testing::TestWithParam<bool> {};
+
+INSTANTIATE_TEST_SUITE_P(Rims, SplatTreeKernelWithRims, testing::Bool());
+
+TEST_P(SplatTreeKernelWithRims, CollectsAllThatBruteForceFinds)
 {
   constexpr float part = 0.5f;
   for (const std::size_t count : {1, 15, 40, 700}) {
-    const Discs discs(count);
+    const Discs discs(count, GetParam());
     ASSERT_EQ(count, discs.filled.size());
     std::size_t met = 0;
     for (const TreeRay& ray : randomRays(300)) {

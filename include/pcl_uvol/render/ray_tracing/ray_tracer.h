@@ -34,6 +34,9 @@ struct SplatObject {
   std::vector<Rgba> colors; ///< one per splat; empty: that of the material
   RayMaterial material;
   bool two_sided = false; ///< its normals have no meaningful sign: nothing is culled
+  /** What ends splats at the rims of the surface, one per splat, as
+   * SplatGeneration::getRims() gives it; empty: all are whole discs. */
+  std::vector<std::uint32_t> rims;
 };
 
 /** \brief A ball. */
@@ -103,7 +106,8 @@ public:
 
   /** \brief What to draw.
    * \throws InvalidArgument for a scene without objects, a material, light or shape out
-   * of its range, a splat that is not finite */
+   * of its range, a splat that is not finite, another number of colours or rims than of
+   * splats */
   void
   setScene(const Scene& scene);
 
