@@ -42,11 +42,13 @@ PrintTo(const Subject& subject, std::ostream* out)
 template <typename PointT>
 Image
 draw(const std::shared_ptr<pcl::PointCloud<PointT>>& cloud,
-     const std::vector<double>& opacities = {})
+     const std::vector<double>& opacities = {},
+     bool culls = false)
 {
   pcl_uvol::ImageSpaceRenderer<PointT> renderer;
   renderer.setInputCloud(cloud);
   renderer.setSize(golden_width, golden_height);
+  renderer.settings().cull_back_faces = culls;
   if (!opacities.empty()) {
     renderer.setColorField("isovalue");
     renderer.setOpacities(opacities);
@@ -146,6 +148,7 @@ const Subject subjects[] = {
     {"specks", [] { return draw(makeSpecks()); }},
     {"inward_ball", [] { return draw(makeInwardBall()); }},
     {"gyroid", [] { return draw(extract(gyroidAt, {0.0})); }},
+    {"gyroid_culled", [] { return draw(extract(gyroidAt, {0.0}), {}, true); }},
     {"rims", [] { return draw(uvol_test::makeWaves(1500, 1)); }},
     {"two_isovalues",
      [] {
