@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // uvol_viewer from the outside, and its window moved by events of mouse and keys.
+#include "charts/color_bar.h"
 #include "support/environment.h"
 #include "support/png.h"
 #include "support/surfaces.h"
@@ -14,6 +15,7 @@
 #include <pcl/conversions.h>
 #include <vtkCallbackCommand.h>
 #include <vtkCamera.h>
+#include <vtkPropCollection.h>
 #include <vtkRenderer.h>
 #include <vtkRendererCollection.h>
 #include <vtkStringArray.h>
@@ -390,7 +392,8 @@ TEST_F(UvolViewer, PointsAreFoundUnderTheMouse)
     return uvol_tools::findPointAt(cloud, open.renderer(), column, row);
   };
   // From the front the ellipsoid's half axis of a quarter points to the eye.
-  const auto middle = find(0.5 * width, 0.5 * height);
+  const int row = height * 61 / 100; // of the middle of what is free above the slider
+  const auto middle = find(0.5 * width, row);
   ASSERT_TRUE(middle);
   const float* const p = pcl_uvol::viewOf(cloud).xyz(*middle);
   EXPECT_NEAR(0.0, p[0], 0.06);
@@ -402,11 +405,11 @@ TEST_F(UvolViewer, PointsAreFoundUnderTheMouse)
   EXPECT_EQ(0u, text.find(p[0] < 0.0f ? "x 999999.9" : "x 1000000")) << text;
   EXPECT_NE(std::string::npos, text.find("\nintensity 0.5")) << text;
 
-  open.click(width / 2, height / 2);
+  open.click(width / 2, row);
   const Image told = open.shoot();
   open.click(2, height - 2);
   EXPECT_TRUE(told.color != open.shoot().color);
-  open.pointAt(width / 2, height / 2);
+  open.pointAt(width / 2, row);
   open.type('f');
   const Eigen::Vector3d center(open.camera().GetFocalPoint());
   EXPECT_EQ(Eigen::Vector3d(p[0], p[1], p[2]), center);
@@ -651,7 +654,8 @@ TEST_F(UvolViewer, KeysLookFromSidesAndPrintTheCamera)
   open.type('p');
   const std::string camera = testing::internal::GetCapturedStdout();
   EXPECT_EQ(0u, camera.find("-eye ")) << camera;
-  EXPECT_NE(std::string::npos, camera.find(" -up 0,1,0 -fov 30")) << camera;
+  // 30 degrees for 140 of 180 rows, which are above the slider
+  EXPECT_NE(std::string::npos, camera.find(" -up 0,1,0 -fov 38.018")) << camera;
 }
 
 /** Points of an ellipsoid of half axes of 1, 0.6 and 0.3, and one far from them. */
@@ -712,6 +716,69 @@ TEST_F(UvolViewer, PointsFillTheWindow)
   pcl_uvol::saveDataset("other.ply", other);
   open.drop({"other.ply"});
   expectFull("drop");
+}
+
+/** A box of pixels that differ in two pictures. */
+struct ChangedPixels {
+  int left = width, right = -1, top = height, bottom = -1;
+
+  ChangedPixels(const Image& a, const Image& b)
+  {
+    for (int row = 0; row < height; ++row)
+      for (int column = 0; column < width; ++column) {
+        const auto first = 4 * static_cast<std::size_t>(row * width + column);
+        if (std::equal(&a.color[first], &a.color[first] + 3, &b.color[first]))
+          continue;
+        left = std::min(left, column);
+        right = std::max(right, column);
+        top = std::min(top, row);
+        bottom = std::max(bottom, row);
+      }
+  }
+};
+
+TEST_F(UvolViewer, SurfacesLieBesideTheBarAndAboveTheSlider)
+{
+  // In so small a window the bar takes less than in a picture.
+  const double free_width = width - uvol_tools::colorBarWidth(width, height),
+               free_height = 0.78 * height;
+  OpenWindow open(makeVolume(), "intensity", {"-view", "front", "-color", "x"});
+  const auto find = [&] {
+    const Image shown = open.shoot();
+    vtkPropCollection& props = *open.renderer().GetViewProps();
+    vtkProp& surface = *vtkProp::SafeDownCast(props.GetItemAsObject(0));
+    surface.VisibilityOff();
+    const Image without = open.shoot();
+    surface.VisibilityOn();
+    return ChangedPixels(shown, without);
+  };
+  const auto expectFitted = [&](const std::string& from) {
+    const ChangedPixels seen = find();
+    EXPECT_GE(seen.left, 0) << from;
+    EXPECT_LE(seen.right, free_width) << from;
+    EXPECT_LE(seen.bottom, free_height) << from;
+    EXPECT_NEAR(0.5 * free_width, 0.5 * (seen.left + seen.right), 3.0) << from;
+    EXPECT_NEAR(0.5 * free_height, 0.5 * (seen.top + seen.bottom), 3.0) << from;
+    EXPECT_NEAR(0.9,
+                std::max((seen.right - seen.left) / free_width,
+                         (seen.bottom - seen.top) / free_height),
+                0.05)
+        << from;
+  };
+  expectFitted("front");
+  for (const char key : std::string("xzr")) {
+    open.type(key);
+    expectFitted(std::string(1, key));
+  }
+  // The picture that is saved has the bar beside the surface as well, and no slider.
+  open.type('s');
+  const Image saved = read("uvol_viewer_1.png");
+  int last = -1;
+  for (int column = 0; column < static_cast<int>(free_width); ++column)
+    if (saved.color[4 * static_cast<std::size_t>(height / 2 * width + column)] < 240)
+      last = column;
+  EXPECT_GT(last, width / 2);
+  EXPECT_LT(last, free_width - 2.0);
 }
 
 /** Length in pixels of the dark line in the lower right corner. */
@@ -798,8 +865,9 @@ TEST_F(UvolViewer, StretchesWhatItShowsAndNotTheData)
   ASSERT_EQ(0, result.exit_code) << result.err;
   const auto [left, right] = columnsOf(read("drawn.png"));
   const auto [shown_left, shown_right] = columnsOf(read("shown.png"));
-  EXPECT_NEAR(left, shown_left, 1);
-  EXPECT_NEAR(right, shown_right, 1);
+  EXPECT_NEAR(left + right, shown_left + shown_right, 2);
+  // As large as it fits above the slider
+  EXPECT_NEAR(0.78 * (right - left), shown_right - shown_left, 2);
 }
 
 TEST_F(UvolViewer, KeysSaveASurfaceAndAPictureThatRenderDrawsAgain)

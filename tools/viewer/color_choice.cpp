@@ -150,10 +150,16 @@ ColorChoice::colorPoints(const pcl::PCLPointCloud2& cloud) const
   return pcl_uvol::colorPoints(pcl_uvol::viewOf(cloud), getField(), mapping).colors;
 }
 
+bool
+ColorChoice::hasLegend() const
+{
+  return hasScale() && look_.hasBar();
+}
+
 void
 ColorChoice::drawLegend(pcl_uvol::Image& image) const
 {
-  if (!isScalar(getField()) || !look_.hasBar())
+  if (!hasLegend())
     return;
   const std::string& title = look_.getColors().getLabel(getField());
   if (legend_.categories.empty())

@@ -51,6 +51,10 @@ public:
   std::vector<pcl_uvol::Rgba>
   colorPoints(const pcl::PCLPointCloud2& cloud) const;
 
+  /** \brief Whether pictures have a bar. */
+  bool
+  hasLegend() const;
+
   /** \brief Draw the bar of the last apply() into a picture. */
   void
   drawLegend(pcl_uvol::Image& image) const;

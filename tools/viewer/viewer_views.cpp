@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cameras of the window, what it saves, and files that it opens.
+#include "charts/color_bar.h"
 #include "shared/ray_options.h"
 #include "surface/splat_input.h"
 #include "viewer/keys.h"
@@ -10,6 +11,7 @@
 #include <vtkCamera.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 
@@ -30,12 +32,38 @@ freeName(const std::string& ending)
   return name(number);
 }
 
+/** The field of view of a picture that is so many times as high. */
+double
+angleOfHigher(double degrees, double growth)
+{
+  constexpr double degree = 3.14159265358979323846 / 180.0;
+  return 2.0 * std::atan(growth * std::tan(0.5 * degree * degrees)) / degree;
+}
+
 } // namespace
+
+PictureCell
+ViewerWindow::findFreePart() const
+{
+  constexpr double beside_bar = 0.82, above_slider = 0.78; // parts of the sides
+  const int* const size = window_->GetSize();
+  int width = size[0], height = size[1];
+  if (bar_->GetVisibility() != 0) // that of pictures may be wider
+    width = std::min(static_cast<int>(beside_bar * width),
+                     width - colorBarWidth(width, height));
+  if (!surface_.getField().empty())
+    height = static_cast<int>(above_slider * height);
+  return ViewOptions::wholePicture(std::max(1, width), std::max(1, height));
+}
 
 void
 ViewerWindow::setCamera(const pcl_uvol::Camera& camera)
 {
   vtkCamera& view = *renderer_->GetActiveCamera();
+  const PictureCell free = findFreePart();
+  const int* const size = window_->GetSize();
+  view.SetWindowCenter(1.0 - static_cast<double>(free.width) / size[0],
+                       static_cast<double>(free.height) / size[1] - 1.0);
   view.SetPosition(camera.eye.data());
   view.SetFocalPoint(camera.at.data());
   view.SetViewUp(camera.up.data());
@@ -59,8 +87,7 @@ void
 ViewerWindow::withSeenSurface(
     const std::function<void(const pcl_uvol::SeenSurface&, const PictureCell&)>& call)
 {
-  const int* const size = window_->GetSize();
-  const PictureCell cell = ViewOptions::wholePicture(size[0], size[1]);
+  const PictureCell cell = findFreePart();
   pcl_uvol::SeenSurface seen{surface_.getBounds()};
   if (!surface_.getCloud()) {
     call(seen, cell);
@@ -77,10 +104,15 @@ ViewerWindow::withSeenSurface(
 }
 
 void
-ViewerWindow::lookFirst()
+ViewerWindow::lookFirst(bool is_placed)
 {
-  withSeenSurface([this](const auto& seen, const auto& cell) {
-    setCamera(look_.makeCamera(seen, surface_.getDrawnOrigin(), cell));
+  withSeenSurface([&](const auto& seen, const auto& cell) {
+    pcl_uvol::Camera camera = look_.makeCamera(seen, surface_.getDrawnOrigin(), cell);
+    if (!is_placed)
+      camera.vertical_fov =
+          angleOfHigher(camera.vertical_fov,
+                        static_cast<double>(window_->GetSize()[1]) / cell.height);
+    setCamera(camera);
   });
 }
 
@@ -90,8 +122,12 @@ ViewerWindow::lookAtAll(pcl_uvol::Camera camera)
   withSeenSurface([&](const auto& seen, const auto& cell) {
     camera.eye += seen.bounds.center - camera.at;
     camera.at = seen.bounds.center;
-    setCamera(
-        fitToSurface(camera, seen, static_cast<double>(cell.width) / cell.height));
+    const double whole_angle = camera.vertical_fov;
+    camera.vertical_fov = angleOfHigher(
+        whole_angle, static_cast<double>(cell.height) / window_->GetSize()[1]);
+    camera = fitToSurface(camera, seen, static_cast<double>(cell.width) / cell.height);
+    camera.vertical_fov = whole_angle;
+    setCamera(camera);
   });
 }
 
@@ -117,6 +153,30 @@ ViewerWindow::printCamera()
   show("printed the camera");
 }
 
+template <typename RendererT>
+pcl_uvol::Image
+ViewerWindow::drawPicture(RendererT& renderer)
+{
+  const int* const size = window_->GetSize();
+  Ground ground{prop_->renderer().settings().background, size[0], size[1], size[0]};
+  if (colors_->hasLegend())
+    ground.views_width -= colorBarWidth(size[0], size[1]);
+  renderer.setSupersampling(look_.getSupersampling());
+  pcl_uvol::Image picture = Figure().drawViews(
+      {pcl_uvol::viewOf(*surface_.getCloud()),
+       surface_.getBounds(),
+       surface_.getDrawnOrigin()},
+      ground,
+      [this](const auto&, const auto&) { return getCamera(); },
+      [&](const pcl_uvol::Camera& camera, const PictureCell& cell, auto& image) {
+        renderer.setSize(cell.width, cell.height);
+        renderer.setCamera(camera);
+        renderer.render(image);
+      });
+  colors_->drawLegend(picture);
+  return picture;
+}
+
 void
 ViewerWindow::savePicture()
 {
@@ -127,15 +187,8 @@ ViewerWindow::savePicture()
   renderer.settings() = prop_->renderer().settings();
   colors_->colorLike(renderer);
   renderer.setOpacities(prop_->renderer().getOpacities());
-  const int* const size = window_->GetSize();
-  renderer.setSize(size[0], size[1]);
-  renderer.setSupersampling(look_.getSupersampling());
-  renderer.setCamera(getCamera());
-  pcl_uvol::Image image;
-  renderer.render(image);
-  colors_->drawLegend(image);
   const std::string name = freeName(".png");
-  pcl_uvol::savePng(name, image);
+  pcl_uvol::savePng(name, drawPicture(renderer));
   show("saved " + name);
 }
 
@@ -160,15 +213,9 @@ ViewerWindow::saveRayTracedPicture()
   scene.background = settings.background;
   pcl_uvol::RayTracer tracer;
   tracer.setScene(scene);
-  tracer.setSize(size[0], size[1]);
-  tracer.setSupersampling(look_.getSupersampling());
   tracer.settings().cull_back_faces = settings.cull_back_faces;
-  tracer.setCamera(getCamera());
-  pcl_uvol::Image image;
-  tracer.render(image);
-  colors_->drawLegend(image);
   const std::string name = freeName(".png");
-  pcl_uvol::savePng(name, image);
+  pcl_uvol::savePng(name, drawPicture(tracer));
   show("saved " + name);
 }
 

@@ -178,6 +178,7 @@ ViewerWindow::ViewerWindow(const std::string& path,
   setUpScene(background);
   setUpTexts(background);
   showSurface();
+  lookFirst(options.given("eye"));
   nameWindow(path);
   if (!surface_.getField().empty())
     setUpSlider();
@@ -212,8 +213,6 @@ ViewerWindow::setUpScene(const pcl_uvol::Background& background)
   window_->SetMultiSamples(0); // the prop smooths its borders itself
   window_->SetSize(look_.getWidth(), look_.getHeight());
   window_->AddRenderer(renderer_);
-
-  lookFirst();
 
   vtkNew<MouseStyle> style;
   style->press = [this](char key) { press(key); };

@@ -209,15 +209,21 @@ private:
   void
   nameIsoValue();
 
+  /** The part of the window beside the bar and above the slider. */
+  PictureCell
+  findFreePart() const;
+
+  /** Show what a camera of the whole window sees in the middle of its free part. */
   void
   setCamera(const pcl_uvol::Camera& camera);
 
   pcl_uvol::Camera
   getCamera() const;
 
-  /** Look at the surface as options say. */
+  /** Look at the surface as options say.
+   * \param is_placed they place the camera, so that it is fitted to nothing */
   void
-  lookFirst();
+  lookFirst(bool is_placed);
 
   /** Show all of the surface from a side. */
   void
@@ -227,10 +233,15 @@ private:
   void
   lookAtAll(pcl_uvol::Camera camera);
 
-  /** Call with what cameras are fitted to, and the part of the window that they see. */
+  /** Call with what cameras are fitted to, and the part of the window that is free. */
   void
   withSeenSurface(const std::function<void(const pcl_uvol::SeenSurface& seen,
                                            const PictureCell& cell)>& call);
+
+  /** A picture of what the window shows, without letters of the window and finer. */
+  template <typename RendererT>
+  pcl_uvol::Image
+  drawPicture(RendererT& renderer);
 
   /** Print options that give the same view. */
   void
