@@ -71,7 +71,7 @@ traceRays(const std::uint8_t* bytes, std::size_t size)
     pcl_uvol::Report report;
     const auto splats = std::make_shared<pcl::PointCloud<pcl_uvol::PointSplat>>(
         pcl_uvol::readSplats(pcl_uvol::viewOf(*cloud), report).cloud);
-    scene.splats.push_back({splats, {}, material});
+    scene.splats.push_back({splats, {}, material, false, {}});
   });
   refusalOf([&] {
     tracer.setScene(scene);

@@ -69,11 +69,12 @@ struct Patch {
   ground(double least_radius, double delta, double lambda) const
   {
     Report report;
+    const std::size_t size = points.samples->size();
     return {points,
-            std::vector<std::uint8_t>(points.samples->size(), 0),
+            std::vector<std::uint8_t>(size, 0),
             computeFootprints(points, 1, report).nearest,
-            std::vector<float>(points.samples->size(),
-                               static_cast<float>(unit * least_radius)),
+            std::vector<float>(size, static_cast<float>(unit * least_radius)),
+            std::vector<PackedRim>(size, 0),
             unit * delta,
             lambda};
   }
