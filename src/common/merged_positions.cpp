@@ -42,6 +42,17 @@ isFinite(const Rounded& position)
       position.begin(), position.end(), [](float x) { return std::isfinite(x); });
 }
 
+/** Whether a position can be told from its rounded one: two of these that differ are
+ * not rounded to the same. */
+bool
+isTold(const Exact& position, const Rounded& rounded, const Exact& origin)
+{
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (origin[axis] + rounded[axis] != position[axis])
+      return false;
+  return true;
+}
+
 /** The finalizer of SplitMix64, for each coordinate in turn. */
 std::uint64_t
 hashOf(const Rounded& position)
@@ -108,6 +119,17 @@ findMergedPositions(std::size_t count,
                     const std::function<Exact(std::size_t)>& position_at,
                     const Exact& origin)
 {
+  // Of floats that are held as doubles none are merged, and there is no need to look.
+  const auto isRounded = [&](std::size_t i) {
+    const Exact position = position_at(i);
+    const Rounded rounded = roundPosition(position, origin);
+    return isFinite(rounded) && !isTold(position, rounded, origin);
+  };
+  std::size_t first_rounded = 0;
+  while (first_rounded < count && !isRounded(first_rounded))
+    ++first_rounded;
+  if (first_rounded == count)
+    return {};
   const auto forHashes = [&](const auto& visit) {
     for (std::size_t i = 0; i < count; ++i)
       if (const Rounded rounded = roundPosition(position_at(i), origin);

@@ -60,7 +60,8 @@ loadMeshByPcl(const std::string& path)
 }
 
 struct Readers {
-  Read ours, other;
+  Read ours;
+  Read other; ///< empty: there is none
 };
 
 const std::map<std::string, Readers> readers_of{
@@ -69,7 +70,9 @@ const std::map<std::string, Readers> readers_of{
     {".vti", {loadVolume, readByVtk<vtkXMLImageDataReader>}},
     {".vtp", {loadPoints, readByVtk<vtkXMLPolyDataReader>}},
     {".vtk", {loadPoints, readByVtk<vtkPolyDataReader>}},
-    {".ply", {loadMesh, loadMeshByPcl}}};
+    {".ply", {loadMesh, loadMeshByPcl}},
+    {".h5", {loadPoints, {}}},
+    {".nc", {loadPoints, {}}}};
 
 /** The best of some runs, in seconds of all threads. */
 double
@@ -92,12 +95,12 @@ main(int argc, char** argv)
   for (int i = 1; i < argc; ++i) {
     const std::filesystem::path path(argv[i]);
     const Readers& readers = readers_of.at(path.extension());
-    const double ours = bestTime(readers.ours, path),
-                 other = bestTime(readers.other, path);
-    std::printf("%s: %.0f MB, ours %.2f s, the other %.2f s\n",
+    std::printf("%s: %.0f MB, ours %.2f s",
                 argv[i],
                 1e-6 * static_cast<double>(std::filesystem::file_size(path)),
-                ours,
-                other);
+                bestTime(readers.ours, path));
+    if (readers.other)
+      std::printf(", the other %.2f s", bestTime(readers.other, path));
+    std::puts("");
   }
 }

@@ -57,6 +57,30 @@ TEST(MergedPositions, AreThoseOfASearchThroughAllPairs)
   EXPECT_EQ(expected, find(points, origin).count);
 }
 
+TEST(MergedPositions, AreNotLookedForAmongFloats)
+{
+  std::mt19937 random(5);
+  const Exact origin{0.5, 0.0, -1.0};
+  std::vector<Exact> points;
+  for (int i = 0; i < 1000; ++i) {
+    Exact point;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      point[axis] = origin[axis] + static_cast<float>(random() % 64) / 8.0f;
+    points.push_back(point);
+  }
+  std::size_t looks = 0;
+  const auto count = [&](std::size_t i) {
+    ++looks;
+    return points[i];
+  };
+  EXPECT_EQ(0u, pcl_uvol::findMergedPositions(points.size(), count, origin).count);
+  EXPECT_EQ(points.size(), looks);
+  // A single double among them, next to a float.
+  points.back() = points.front();
+  points.back()[0] += 1e-12;
+  EXPECT_EQ(1u, pcl_uvol::findMergedPositions(points.size(), count, origin).count);
+}
+
 TEST(MergedPositions, AreNotThoseThatAreEqualAnywayNorWhatIsNoPosition)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
