@@ -26,16 +26,22 @@ HalfEdges::HalfEdges(std::vector<Triangle>& triangles, std::size_t vertices)
   for (HalfEdge edge = 0; edge < twins_.size(); ++edge)
     from[end[originOf(edge)]++] = {targetOf(edge), edge};
 
+  // By their targets: in broken files many triangles share one vertex, or one edge.
+  const auto isBefore = [](const Outgoing& a, const Outgoing& b) {
+    return a.target < b.target;
+  };
+  for (std::size_t i = 0; i < vertices; ++i)
+    std::sort(from.begin() + begin[i], from.begin() + begin[i + 1], isBefore);
   const auto countOf = [&](std::uint32_t origin, std::uint32_t target) {
-    std::pair<std::size_t, HalfEdge> found(0, none);
-    for (std::uint32_t i = begin[origin]; i < begin[origin + 1]; ++i)
-      if (from[i].target == target)
-        found = {found.first + 1, from[i].edge};
-    return found;
+    const auto [first, last] = std::equal_range(from.begin() + begin[origin],
+                                                from.begin() + begin[origin + 1],
+                                                Outgoing{target, none},
+                                                isBefore);
+    return std::pair(last - first, first == last ? none : first->edge);
   };
   for (HalfEdge edge = 0; edge < twins_.size(); ++edge) {
     const std::uint32_t a = originOf(edge), b = targetOf(edge);
-    const auto [same, last] = countOf(a, b);
+    const std::ptrdiff_t same = countOf(a, b).first;
     const auto [opposite, twin] = countOf(b, a);
     defects_.edges += a == b || same > 1 || opposite > 1;
     if (a != b && same == 1 && opposite == 1)

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -157,6 +158,21 @@ TEST(HalfEdges, NoticeEveryDefect)
   EXPECT_EQ(0u, HalfEdges(triangles, 11).getDefects().edges);
   EXPECT_EQ(1u, HalfEdges(triangles, 11).getDefects().vertices);
   EXPECT_THROW(findPieces(triangles, 11), std::logic_error);
+}
+
+TEST(HalfEdges, ManyTrianglesOfOneEdgeTakeNoLonger)
+{
+  constexpr std::size_t count = 200000;
+  std::vector<Triangle> triangles = makeOctahedron();
+  triangles.insert(triangles.end(), count, {6, 7, 8});
+  const auto start = std::chrono::steady_clock::now();
+  const HalfEdges edges(triangles, 9);
+  const std::chrono::duration<double> seconds =
+      std::chrono::steady_clock::now() - start;
+  EXPECT_LT(seconds.count(), 5.0); // minutes where each looks at all others
+  EXPECT_EQ(3 * count, edges.getDefects().edges);
+  EXPECT_EQ(3u, edges.getDefects().vertices);
+  EXPECT_EQ(3 * count, edges.countRimEdges());
 }
 
 TEST(HalfEdges, FlipsAndCollapsesStayManifold)
