@@ -6,8 +6,12 @@
 #include "mesh/exact_signs.h"
 #include "mesh/measured_mesh.h"
 #include "mesh/triangle_tree.h"
+#include <pcl_uvol/common/exceptions.h>
+
+#include <Eigen/Geometry>
 
 #include <algorithm>
+#include <atomic>
 #include <sstream>
 
 namespace pcl_uvol::detail {
@@ -17,17 +21,46 @@ namespace {
 /** Triangles that a thread looks at at a time. */
 constexpr std::size_t block_triangles = 512;
 
+/** Of a surface that goes through itself on purpose there are some per triangle; where
+ * triangles lie on one another there are as many as the square of their number. */
+constexpr std::size_t most_pairs = 10000000;
+
 using Place = Eigen::Vector3d;
+
+std::array<Place, 3>
+cornersOf(const std::vector<Place>& places, const Triangle& triangle)
+{
+  return {places[triangle[0]], places[triangle[1]], places[triangle[2]]};
+}
+
+template <typename Places>
+Eigen::AlignedBox3d
+boxOf(const Places& places)
+{
+  Eigen::AlignedBox3d box;
+  for (const Place& place : places)
+    box.extend(place);
+  return box;
+}
 
 /** An axis along which a triangle is seen from its side nowhere; -1 for one without
  * area. */
 int
 findAxis(const Place& a, const Place& b, const Place& c)
 {
-  for (int axis = 0; axis < 3; ++axis)
-    if (signOfArea(a, b, c, axis) != 0)
+  // The sign of an area of zero takes whole numbers: the largest area comes first.
+  int largest = 0;
+  (b - a).cross(c - a).cwiseAbs().maxCoeff(&largest);
+  for (int i = 0; i < 3; ++i)
+    if (const int axis = (largest + i) % 3; signOfArea(a, b, c, axis) != 0)
       return axis;
   return -1;
+}
+
+bool
+hasArea(const std::array<Place, 3>& corners)
+{
+  return findAxis(corners[0], corners[1], corners[2]) >= 0;
 }
 
 /** Whether a place in the plane of a triangle is in it, its edges included. */
@@ -87,24 +120,20 @@ doIntersect(const std::vector<Eigen::Vector3d>& places,
             const Triangle& a,
             const Triangle& b)
 {
-  const auto cornersOf = [&](const Triangle& triangle) {
-    return std::array<Place, 3>{
-        places[triangle[0]], places[triangle[1]], places[triangle[2]]};
-  };
-  const std::array<Place, 3> of_a = cornersOf(a), of_b = cornersOf(b);
+  const std::array<Place, 3> of_a = cornersOf(places, a), of_b = cornersOf(places, b);
   const int axis = findAxis(of_a[0], of_a[1], of_a[2]);
-  if (axis < 0 || findAxis(of_b[0], of_b[1], of_b[2]) < 0)
+  if (axis < 0 || !hasArea(of_b))
     return false;
-  std::vector<std::uint32_t> shared;
-  for (const std::uint32_t vertex : a)
-    if (std::find(b.begin(), b.end(), vertex) != b.end())
-      shared.push_back(vertex);
-  if (shared.size() == 3)
+  Triangle shared;
+  const auto end = std::copy_if(a.begin(), a.end(), shared.begin(), [&](auto vertex) {
+    return std::find(b.begin(), b.end(), vertex) != b.end();
+  });
+  if (end == shared.end())
     return true;
   const auto isShared = [&](std::uint32_t vertex) {
-    return std::find(shared.begin(), shared.end(), vertex) != shared.end();
+    return std::find(shared.begin(), end, vertex) != end;
   };
-  if (shared.size() == 2) {
+  if (end - shared.begin() == 2) {
     // Folded onto each other: the tips are on one side of the edge in one plane.
     const Place &tip_a = places[*std::find_if_not(a.begin(), a.end(), isShared)],
                 &tip_b = places[*std::find_if_not(b.begin(), b.end(), isShared)],
@@ -117,9 +146,11 @@ doIntersect(const std::vector<Eigen::Vector3d>& places,
   const auto anyMeets = [&](const Triangle& edges,
                             const std::array<Place, 3>& of_edges,
                             const std::array<Place, 3>& other) {
+    const Eigen::AlignedBox3d box = boxOf(other);
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t k = (i + 1) % 3;
       if (!isShared(edges[i]) && !isShared(edges[k]) &&
+          box.intersects(boxOf(std::array{of_edges[i], of_edges[k]})) &&
           meets(of_edges[i], of_edges[k], other))
         return true;
     }
@@ -141,6 +172,10 @@ findSelfIntersections(const std::vector<Eigen::Vector3d>& places,
   };
   using Pair = std::pair<std::uint32_t, std::uint32_t>;
   const TriangleTree tree(places, triangles);
+  std::vector<bool> has_area; // told once: of lines it takes whole numbers
+  for (const Triangle& triangle : triangles)
+    has_area.push_back(hasArea(cornersOf(places, triangle)));
+  std::atomic<std::size_t> total{0};
   return parallelGather<Pair>(
       triangles.size(),
       block_triangles,
@@ -149,15 +184,20 @@ findSelfIntersections(const std::vector<Eigen::Vector3d>& places,
         std::vector<std::uint32_t> found;
         for (std::size_t i = begin; i < end; ++i) {
           const auto first = static_cast<std::uint32_t>(i);
-          Eigen::AlignedBox3d box;
-          for (const std::uint32_t vertex : triangles[i])
-            box.extend(places[vertex]);
-          tree.findOverlapping(box, found);
-          std::sort(found.begin(), found.end());
+          if (!has_area[i])
+            continue;
+          const std::size_t before = pairs.size();
+          tree.findOverlapping(boxOf(cornersOf(places, triangles[i])), found);
           for (const std::uint32_t second : found)
-            if (second > first && areOfOne(triangles[first], triangles[second]) &&
+            if (second > first && has_area[second] &&
+                areOfOne(triangles[first], triangles[second]) &&
                 doIntersect(places, triangles[first], triangles[second]))
               pairs.emplace_back(first, second);
+          std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(before), pairs.end());
+          if ((total += pairs.size() - before) > most_pairs)
+            throw InvalidArgument("More than " + std::to_string(most_pairs) +
+                                  " pairs of triangles of the surface intersect: many "
+                                  "lie on one another, repair the mesh.");
         }
         step.advance(end - begin);
       });

@@ -29,7 +29,8 @@ doIntersect(const std::vector<Eigen::Vector3d>& places,
  * one first.
  * \param surface_of by vertex: surfaces of several isovalues may touch, as their caps
  * do; empty: all are of one
- * \param report gets the time and progress of "intersections" */
+ * \param report gets the time and progress of "intersections"
+ * \throws InvalidArgument for more than 10 million */
 PCL_UVOL_EXPORTS std::vector<std::pair<std::uint32_t, std::uint32_t>>
 findSelfIntersections(const std::vector<Eigen::Vector3d>& places,
                       const std::vector<Triangle>& triangles,
@@ -40,7 +41,8 @@ findSelfIntersections(const std::vector<Eigen::Vector3d>& places,
 /** \brief The same with their places, surface by `isovalue`.
  * \param origin of the vertices
  * \param report gets their count, time and progress as "intersections", and a warning
- * where there are any */
+ * where there are any
+ * \throws InvalidArgument as findSelfIntersections() does */
 std::vector<TriangleIntersection>
 describeIntersections(const CloudView& vertices,
                       const std::vector<Triangle>& triangles,

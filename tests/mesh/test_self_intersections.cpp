@@ -195,4 +195,40 @@ TEST(SelfIntersections, AreFoundInMeshes)
                   .empty());
 }
 
+TEST(SelfIntersections, ManyTrianglesMayShareAVertex)
+{
+  constexpr std::uint32_t count = 3000;
+  std::vector<Place> places = {{0, 0, 1}};
+  std::vector<Triangle> triangles;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const double angle = 2.0 * M_PI * i / count;
+    places.emplace_back(std::cos(angle), std::sin(angle), 0.0);
+    triangles.push_back({0, i + 1, (i + 1) % count + 1});
+  }
+  pcl_uvol::Report report;
+  EXPECT_TRUE(findSelfIntersections(places, triangles, {}, 2, report).empty());
+  // A blade that stands in the cone cuts all triangles of a sector, and none twice.
+  places.insert(places.end(), {{0.9, 0.0, 0.2}, {0.0, 0.9, 0.2}});
+  triangles.push_back({0, count + 1, count + 2});
+  const auto pairs = findSelfIntersections(places, triangles, {}, 2, report);
+  std::size_t all = 0;
+  for (std::uint32_t i = 0; i < count; ++i)
+    all += doIntersect(places, triangles[i], triangles[count]);
+  EXPECT_EQ(all, pairs.size());
+  EXPECT_GT(all, 0u);
+}
+
+TEST(SelfIntersections, HaveABoundWhereAllLieOnOneAnother)
+{
+  const std::vector<Place> places = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  std::vector<Triangle> triangles(1000, {0, 1, 2});
+  pcl_uvol::Report report;
+  EXPECT_EQ(499500u, findSelfIntersections(places, triangles, {}, 2, report).size());
+  triangles.resize(30000, {0, 1, 1}); // lines, which intersect nothing
+  EXPECT_EQ(499500u, findSelfIntersections(places, triangles, {}, 2, report).size());
+  triangles.resize(60000, {0, 1, 2});
+  EXPECT_THROW(findSelfIntersections(places, triangles, {}, 2, report),
+               InvalidArgument);
+}
+
 } // namespace
