@@ -12,6 +12,10 @@ namespace {
 /** Fits a cache of the second level, and calls of the system cost nothing beside it. */
 constexpr std::size_t block_bytes = std::size_t(1) << 18;
 
+/** Lines of 100,000 columns have a few of them. What goes on for longer is no text, or
+ * fills the memory. */
+constexpr std::size_t most_line_bytes = std::size_t(16) << 20;
+
 bool
 isBlank(char c)
 {
@@ -88,6 +92,13 @@ FileCursor::skip(std::uint64_t bytes)
   return true;
 }
 
+void
+FileCursor::checkLength(std::size_t bytes) const
+{
+  if (bytes > most_line_bytes)
+    throwUnreadable(path_, line_ + 1, "it does not end within 16 MB");
+}
+
 bool
 FileCursor::nextLine(std::string_view& line)
 {
@@ -98,6 +109,7 @@ FileCursor::nextLine(std::string_view& line)
     found = static_cast<const char*>(
         std::memchr(from + searched, '\n', end_ - begin_ - searched));
     searched = end_ - begin_;
+    checkLength(found ? static_cast<std::size_t>(found - from) : searched);
   } while (!found && fill());
   if (searched == 0)
     return false;
@@ -129,10 +141,11 @@ FileCursor::nextWord(std::string_view& word)
   if (!skipBlanks())
     return false;
   std::size_t bytes = 1;
-  do
+  do {
     while (begin_ + bytes < end_ && !isBlank(buffer_[begin_ + bytes]))
       ++bytes;
-  while (begin_ + bytes == end_ && fill());
+    checkLength(bytes);
+  } while (begin_ + bytes == end_ && fill());
   word = std::string_view(buffer_.data() + begin_, bytes);
   begin_ += bytes;
   return true;

@@ -60,7 +60,8 @@ public:
 
   /** \brief The next line without its end (LF or CRLF), valid until the next call.
    * \return false after the last line
-   * \throws IOError for a text with bytes that are zero */
+   * \throws IOError for a line of more than 16 MB, and a text with bytes that are zero
+   */
   bool
   nextLine(std::string_view& line);
 
@@ -70,7 +71,8 @@ public:
   nextWords(std::vector<std::string_view>& words);
 
   /** \brief The next word between blanks and ends of lines, valid until the next call.
-   * \return false after the last word */
+   * \return false after the last word
+   * \throws IOError for a word of more than 16 MB */
   bool
   nextWord(std::string_view& word);
 
@@ -85,6 +87,8 @@ public:
 private:
   bool
   fill();
+  void
+  checkLength(std::size_t bytes) const;
 
   const std::string path_;
   const InputFile file_;

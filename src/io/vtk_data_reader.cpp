@@ -256,7 +256,7 @@ struct ListedFile {
 std::vector<ListedFile>
 listFiles(const std::string& path)
 {
-  XmlScanner scanner(path);
+  XmlScanner scanner(path, FileCursor::Content::Text);
   XmlTag tag;
   std::vector<ListedFile> files;
   const auto folder = std::filesystem::path(path).parent_path();

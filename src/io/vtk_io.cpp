@@ -82,7 +82,7 @@ makeWritable(const Dataset& dataset)
 std::vector<std::string>
 readPieceList(const std::string& path)
 {
-  XmlScanner scanner(path);
+  XmlScanner scanner(path, FileCursor::Content::Text);
   XmlTag tag;
   std::vector<std::string> pieces;
   bool is_list = false;

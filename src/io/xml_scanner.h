@@ -33,9 +33,10 @@ struct XmlTag {
 /** \brief Reads tags; they have to be nested properly, at most 100 deep. */
 class XmlScanner {
 public:
-  explicit XmlScanner(const std::string& path)
+  explicit XmlScanner(const std::string& path,
+                      FileCursor::Content content = FileCursor::Content::Any)
       : path_(path)
-      , cursor_(path)
+      , cursor_(path, content)
   {
   }
 

@@ -432,6 +432,49 @@ TEST(BrokenFiles, CellsOfEveryFileOfTheCorpora)
     }
 }
 
+/** Files that were made large before they were written, and never were: lines of zeros
+ * without an end. */
+TEST(BrokenFiles, LinesWithoutAnEnd)
+{
+  const TemporaryFolder folder;
+  const std::uint64_t before = peakMemory();
+  const std::vector<std::pair<const char*, std::string>> files = {
+      {".nrrd", ""},
+      {".nrrd", "NRRD0004\n"},
+      {".nrrd", "NRRD0004\ntype: int\ndimension: 3\nsizes: 2 3 4\nencoding: txt\n\n"},
+      {".nhdr", ""},
+      {".mha", ""},
+      {".mhd", "ObjectType = Image\nElementDataFile = LIST\n"},
+      {".pcd", ""},
+      {".pcd", "FIELDS "},
+      {".ply", ""},
+      {".ply", "ply\nformat ascii 1.0\ncomment "},
+      {".vtk", ""},
+      {".vtk", "# vtk DataFile Version 3.0\n"},
+      {".vtk",
+       "# vtk DataFile Version 3.0\n\nASCII\nDATASET POLYDATA\nPOINTS 9 float\n"},
+      {".csv", ""},
+      {".xyz", "1 2 3\n"},
+      {".vti", ""},
+      {".vtp", "<VTKFile type=\"PolyData\">"},
+      {".pvd", "<VTKFile type=\"Collection\">"},
+      {".pvtp", ""},
+      {".las", ""},
+      {".npy", ""},
+      {".bgeo", ""}};
+  for (const auto& [ending, start] : files) {
+    const std::string path = folder / "a" + ending;
+    writeFile(path, start);
+    std::filesystem::resize_file(path, 20000000000u); // takes no place on the disk
+    const auto begin = std::chrono::steady_clock::now();
+    EXPECT_NE("", isVolumeFile(path) ? makeVolume(path) : pointsOf(path)) << path;
+    const std::chrono::duration<double> seconds =
+        std::chrono::steady_clock::now() - begin;
+    EXPECT_LT(seconds.count(), 2.0) << path << start;
+  }
+  EXPECT_LT(peakMemory() - before, 200u << 20);
+}
+
 /** The files that fooled readers once. */
 TEST(BrokenFiles, EveryOneEverFound)
 {
