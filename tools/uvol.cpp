@@ -2,6 +2,7 @@
 // One name for all tools: uvol isosurface in.csv out.ply ... is uvol_isosurface with
 // the same arguments. The tools are those that lie beside it.
 #include "common/similar_words.h"
+#include "io/folder.h"
 #include "io/formats.h"
 #include "shared/options.h"
 
@@ -30,12 +31,12 @@ std::vector<std::string>
 listTools()
 {
   std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(findFolder())) {
-    const std::string name = entry.path().filename().string();
+  const std::filesystem::path folder = findFolder();
+  for (const std::string& name : pcl_uvol::io::listFolder(folder.string()))
     if (name.compare(0, prefix.size(), prefix) == 0 &&
-        access(entry.path().c_str(), X_OK) == 0 && name.find('.') == std::string::npos)
+        access((folder / name).c_str(), X_OK) == 0 &&
+        name.find('.') == std::string::npos)
       names.push_back(name.substr(prefix.size()));
-  }
   std::sort(names.begin(), names.end());
   return names;
 }

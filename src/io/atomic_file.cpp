@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Files that appear whole or not at all: written beside, flushed, renamed.
 #include "io/files.h"
+#include "io/folder.h"
 #include "io/unpacked_file.h"
 #include <pcl_uvol/io/dataset.h>
 
@@ -98,10 +99,7 @@ void
 removeLeftParts(const fs::path& target, const fs::path& folder)
 {
   const std::string prefix = partPrefix(target), ending = part_ending;
-  std::error_code error;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
-       entry.increment(error)) {
-    const std::string name = entry->path().filename().string();
+  for (const std::string& name : io::listFolder(folder.string())) {
     if (name.size() <= prefix.size() + ending.size() ||
         name.compare(0, prefix.size(), prefix) != 0 ||
         name.compare(name.size() - ending.size(), ending.size(), ending) != 0)
@@ -110,9 +108,10 @@ removeLeftParts(const fs::path& target, const fs::path& folder)
     std::from_chars(name.data() + prefix.size(), name.data() + name.size(), process);
     if (process <= 0 || ::kill(process, 0) == 0 || errno != ESRCH)
       continue;
-    const int descriptor = ::open(entry->path().c_str(), O_RDONLY | O_CLOEXEC);
+    const std::string part = (folder / name).string();
+    const int descriptor = ::open(part.c_str(), O_RDONLY | O_CLOEXEC);
     if (descriptor >= 0 && ::flock(descriptor, LOCK_EX | LOCK_NB) == 0)
-      ::unlink(entry->path().c_str());
+      ::unlink(part.c_str());
     ::close(descriptor);
   }
 }

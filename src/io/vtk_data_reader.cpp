@@ -5,6 +5,7 @@
 #include "io/cell_centers.h"
 #include "io/child_process.h"
 #include "io/files.h"
+#include "io/folder.h"
 #include "io/vtk_messages.h"
 #include "io/xml_scanner.h"
 #include <pcl_uvol/io/dataset.h>
@@ -275,25 +276,32 @@ listFiles(const std::string& path)
   return files;
 }
 
+/** Bytes of the files in a folder and in those below. */
+std::uint64_t
+countFolderBytes(const std::string& folder)
+{
+  namespace fs = std::filesystem;
+  std::uint64_t bytes = 0;
+  for (const std::string& name : listFolder(folder)) {
+    const std::string path = folder + '/' + name;
+    std::error_code error;
+    if (fs::is_directory(fs::symlink_status(path, error)))
+      bytes += countFolderBytes(path);
+    else if (fs::is_regular_file(path, error))
+      if (const std::uint64_t size = fs::file_size(path, error); !error)
+        bytes += size;
+  }
+  return bytes;
+}
+
 /** Bytes of a file, or of the folder of a file that names others. */
 std::uint64_t
 countBytes(const std::string& path)
 {
-  namespace fs = std::filesystem;
   const std::string ending = getEnding(path);
   if (ending != ".foam" && ending != ".case" && ending != ".vthb")
     return InputFile(path).getSize();
-  std::uint64_t bytes = 0;
-  std::error_code error;
-  const fs::path folder = fs::absolute(path).parent_path();
-  for (fs::recursive_directory_iterator
-           entry(folder, fs::directory_options::skip_permission_denied, error),
-       end;
-       !error && entry != end;
-       entry.increment(error))
-    if (entry->is_regular_file(error))
-      bytes += entry->file_size(error);
-  return bytes;
+  return countFolderBytes(std::filesystem::absolute(path).parent_path().string());
 }
 
 /** Read a file by VTK's own reader. */

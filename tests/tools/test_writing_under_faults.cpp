@@ -84,6 +84,28 @@ TEST_F(WritingUnderFaults, TheNextRunTakesAwayWhatAKilledOneLeft)
   EXPECT_EQ(expected, folder_.list());
 }
 
+/** Folders are looked through for what killed runs left. */
+TEST_F(WritingUnderFaults, EveryLackOfMemoryIsASentence)
+{
+  for (int i = 0; i < 30; ++i)
+    writeFile(folder_ / "other" + std::to_string(i), "");
+  const std::string command =
+      " uvol_convert '" + in_ + "' '" + (folder_ / "out.npz") + "'";
+  const std::string counts = folder_ / "counts",
+                    library = "LD_PRELOAD=" PCL_UVOL_FAULTS;
+  ASSERT_EQ(0,
+            runCommand(library + " UVOL_FAULTS=count=" + counts + command).exit_code);
+  const std::string text = readFile(counts), call = "malloc ";
+  const int calls = std::stoi(text.substr(text.find(call) + call.size()));
+  ASSERT_GT(calls, 100);
+  for (int i = 1; i <= calls; i += 3) {
+    const auto result =
+        runCommand(library + " UVOL_FAULTS=malloc:" + std::to_string(i) + command);
+    EXPECT_TRUE(result.exit_code >= 0 && result.exit_code <= 2)
+        << i << ": " << result.exit_code << result.err;
+  }
+}
+
 TEST(FilesOfTools, NoOutputIsAnInputOrAnotherOutput)
 {
   const uvol_test::TemporaryFolder folder;

@@ -2,6 +2,7 @@
 #include "shared/series.h"
 
 #include "common/numbers.h"
+#include "io/folder.h"
 #include "io/memory_need.h"
 #include "io/xml_text.h"
 #include <pcl_uvol/common/exceptions.h>
@@ -330,9 +331,7 @@ NumberedName::findNumbers() const
   const std::string start =
       slash == std::string::npos ? before_ : before_.substr(slash + 1);
   std::vector<std::size_t> numbers;
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
-    const std::string name = entry.path().filename().string();
+  for (const std::string& name : pcl_uvol::io::listFolder(folder)) {
     std::uint64_t number = 0;
     if (name.size() <= start.size() + after_.size() || name.rfind(start, 0) != 0)
       continue;
