@@ -44,6 +44,9 @@ public:
   Volume
   read();
 
+  std::vector<std::string>
+  findFiles();
+
 private:
   void
   take(std::string_view key, std::string_view value);
@@ -53,6 +56,8 @@ private:
   numbersIn(std::size_t count) const;
   void
   takeNumbers(std::string_view value);
+  void
+  parse();
   void
   finish();
 
@@ -159,8 +164,8 @@ HeaderParser::finish()
   }
 }
 
-Volume
-HeaderParser::read()
+void
+HeaderParser::parse()
 {
   std::string_view line;
   while (cursor_.nextLine(line)) {
@@ -172,15 +177,27 @@ HeaderParser::read()
     const std::string key(trimmed(line.substr(0, equals)));
     const std::string value(trimmed(line.substr(equals + 1)));
     splitWords(value, words_);
-    if (key == "ElementDataFile" && !words_.empty()) {
-      takeNumbers(value);
-      finish();
-      readValues(path_, data_, volume_);
-      return std::move(volume_);
-    }
+    if (key == "ElementDataFile" && !words_.empty())
+      return takeNumbers(value);
     take(key, value);
   }
   throwUnreadable(path_, "its header has no ElementDataFile");
+}
+
+Volume
+HeaderParser::read()
+{
+  parse();
+  finish();
+  readValues(path_, data_, volume_);
+  return std::move(volume_);
+}
+
+std::vector<std::string>
+HeaderParser::findFiles()
+{
+  parse();
+  return data_.files;
 }
 
 } // namespace
@@ -189,6 +206,12 @@ Volume
 readMetaImage(const std::string& path)
 {
   return HeaderParser(path).read();
+}
+
+std::vector<std::string>
+findMetaImageFiles(const std::string& path)
+{
+  return HeaderParser(path).findFiles();
 }
 
 } // namespace io

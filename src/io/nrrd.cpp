@@ -56,6 +56,9 @@ public:
   Volume
   read();
 
+  std::vector<std::string>
+  findFiles();
+
 private:
   void
   take(const std::string& field, std::string_view value);
@@ -65,6 +68,8 @@ private:
   vectorsIn(std::string_view value) const;
   std::uint64_t
   countIn(std::string_view value) const;
+  void
+  parse();
   void
   finish();
 
@@ -185,8 +190,8 @@ HeaderParser::finish()
       volume_.origin[axis] = origin_[0][axis];
 }
 
-Volume
-HeaderParser::read()
+void
+HeaderParser::parse()
 {
   std::string_view line;
   if (!cursor_.nextLine(line) || line.substr(0, 4) != "NRRD")
@@ -208,9 +213,22 @@ HeaderParser::read()
     data_.files = {path_};
     data_.offset = cursor_.tell().offset;
   }
+}
+
+Volume
+HeaderParser::read()
+{
+  parse();
   finish();
   readValues(path_, data_, volume_);
   return std::move(volume_);
+}
+
+std::vector<std::string>
+HeaderParser::findFiles()
+{
+  parse();
+  return data_.files;
 }
 
 } // namespace
@@ -219,6 +237,12 @@ Volume
 readNrrd(const std::string& path)
 {
   return HeaderParser(path).read();
+}
+
+std::vector<std::string>
+findNrrdFiles(const std::string& path)
+{
+  return HeaderParser(path).findFiles();
 }
 
 } // namespace io

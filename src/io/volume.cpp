@@ -67,12 +67,24 @@ makeVolume(const std::string& path, vtkImageData& image)
   return volume;
 }
 
+bool
+isNrrd(const std::string& ending)
+{
+  return ending == ".nrrd" || ending == ".nhdr";
+}
+
+bool
+isMetaImage(const std::string& ending)
+{
+  return ending == ".mha" || ending == ".mhd";
+}
+
 Volume
 readVolume(const std::string& path, const std::string& ending)
 {
-  if (ending == ".nrrd" || ending == ".nhdr")
+  if (isNrrd(ending))
     return io::readNrrd(path);
-  if (ending == ".mha" || ending == ".mhd")
+  if (isMetaImage(ending))
     return io::readMetaImage(path);
   if (ending != ".vti" && ending != ".vtk")
     io::throwUnreadable(
@@ -134,12 +146,27 @@ Volume::upper() const
   return position;
 }
 
+std::vector<std::string>
+io::findVolumeFiles(const std::string& path)
+{
+  const std::string ending = getEnding(path);
+  try {
+    if (isNrrd(ending))
+      return findNrrdFiles(path);
+    if (isMetaImage(ending))
+      return findMetaImageFiles(path);
+  }
+  catch (const IOError&) {
+    // Whoever reads the volume tells what is wrong with it.
+  }
+  return {};
+}
+
 bool
 isVolumeFile(const std::string& path)
 {
   const std::string ending = io::getEnding(path);
-  return ending == ".nrrd" || ending == ".nhdr" || ending == ".vti" ||
-         ending == ".mha" || ending == ".mhd" ||
+  return isNrrd(ending) || isMetaImage(ending) || ending == ".vti" ||
          (ending == ".vtk" && isStructuredPoints(path));
 }
 

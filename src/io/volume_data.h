@@ -65,6 +65,19 @@ Volume
 readNrrd(const std::string& path);
 /** @} */
 
+/** \brief The files of the numbers, as headers name them; the header's own, too.
+ * \throws IOError @{ */
+std::vector<std::string>
+findMetaImageFiles(const std::string& path);
+std::vector<std::string>
+findNrrdFiles(const std::string& path);
+/** @} */
+
+/** \brief The files of the numbers of any volume; none where these, or the header,
+ * cannot be read. */
+std::vector<std::string>
+findVolumeFiles(const std::string& path);
+
 /** \throws IOError that says what to do with axes that are not x, y and z */
 [[noreturn]] void
 throwOblique(const std::string& path);

@@ -6,6 +6,7 @@
 #include "io/child_process.h"
 #include "io/files.h"
 #include "io/folder.h"
+#include "io/volume_data.h"
 #include "io/vtk_messages.h"
 #include "io/xml_scanner.h"
 #include <pcl_uvol/io/dataset.h>
@@ -479,7 +480,7 @@ readFileList(const std::string& path, DataPlace place)
 std::vector<std::string>
 listNamedFiles(const std::string& path)
 {
-  return io::isFileList(path) ? io::findNames(path) : std::vector<std::string>();
+  return io::isFileList(path) ? io::findNames(path) : io::findVolumeFiles(path);
 }
 
 } // namespace pcl_uvol

@@ -143,6 +143,43 @@ TEST(FilesOfTools, NoOutputIsAnInputOrAnotherOutput)
             folder.list());
 }
 
+/** The numbers of a volume lie in files that its header names. */
+TEST(FilesOfTools, NoOutputHoldsTheNumbersOfAnInput)
+{
+  const uvol_test::TemporaryFolder folder;
+  const std::string numbers(8, '\1'), path = folder / "";
+  const std::string meta = "NDims = 3\nDimSize = 2 2 2\nElementType = MET_UCHAR\n"
+                           "ElementDataFile = ",
+                    nrrd = "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 2 2 2\n"
+                           "encoding: raw\ndata file: ";
+  writeFile(folder / "one.mhd", meta + "one.ply\n");
+  writeFile(folder / "two.mhd", meta + "LIST\none.csv\ntwo.csv\n");
+  writeFile(folder / "three.nhdr", nrrd + "one.ply\n");
+  writeFile(folder / "four.nhdr", nrrd + "%d.pcd 3 4\n");
+  writeFile(folder / "alone.mha", meta + "LOCAL\n" + numbers);
+  for (const char* const name : {"one.ply", "one.csv", "two.csv", "3.pcd", "4.pcd"})
+    writeFile(folder / name, name[0] == 'o' ? numbers : numbers.substr(0, 4));
+  for (const std::string line : {"one.mhd one.ply",
+                                 "two.mhd two.csv",
+                                 "three.nhdr ./one.ply",
+                                 "four.nhdr 4.pcd",
+                                 "one.mhd other.ply -tree one.ply"}) {
+    const std::string tool =
+        line.find("-tree") == line.npos ? "uvol_generate " : "uvol_cluster ";
+    const auto before = folder.list();
+    const auto result = runCommand("cd '" + path + "' && " + tool + line);
+    EXPECT_EQ(2, result.exit_code) << line << result.err;
+    EXPECT_EQ(1, std::count(result.err.begin(), result.err.end(), '\n')) << result.err;
+    EXPECT_EQ(before, folder.list());
+    EXPECT_EQ(numbers, readFile(folder / "one.ply")) << line;
+    EXPECT_EQ(numbers.substr(0, 4), readFile(folder / "4.pcd")) << line;
+  }
+  for (const std::string line : {"one.mhd other.ply", "alone.mha one.ply"}) {
+    const auto result = runCommand("cd '" + path + "' && uvol_generate -n 5 " + line);
+    EXPECT_EQ(0, result.exit_code) << line << result.err;
+  }
+}
+
 TEST(FilesOfTools, DanglingLinksAreFollowed)
 {
   const uvol_test::TemporaryFolder folder;

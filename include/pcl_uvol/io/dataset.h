@@ -113,7 +113,8 @@ PCL_UVOL_EXPORTS std::string
 resolveLinks(const std::string& path);
 
 /** \brief The files that a list (.pvd, .vtm, .pvtu, .pvtp, .pvts) names, and those that
- * lists in it name; none for another file, and those before a list that cannot be read.
+ * lists in it name, or those of a volume's numbers (.mhd, .mha, .nhdr, .nrrd); none for
+ * another file, and those before a list that cannot be read.
  * \param path may name no file */
 PCL_UVOL_EXPORTS std::vector<std::string>
 listNamedFiles(const std::string& path);
