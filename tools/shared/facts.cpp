@@ -26,35 +26,47 @@ write(const Json& json)
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-Json
-toJson(double number)
+std::string
+write(double number)
 {
   constexpr double most_exact = 9007199254740992.0; // 2^53
   if (!std::isfinite(number))
-    return {};
+    return "null";
   if (number == std::round(number) && std::abs(number) < most_exact)
-    return static_cast<std::int64_t>(number);
-  return number;
+    return write(Json(static_cast<std::int64_t>(number)));
+  return write(Json(number));
 }
 
-Json
-toJson(const Fact::Numbers& numbers)
+// Lists and objects are put together as texts: those of Json take memory to be
+// destroyed, and end the program where there is none.
+
+std::string
+write(const Fact::Numbers& numbers)
 {
-  Json list = Json::array();
+  std::string text;
   for (const double number : numbers)
-    list.push_back(toJson(number));
-  return list;
+    text += (text.empty() ? "" : ",") + write(number);
+  return '[' + text + ']';
 }
 
-Json
-toJson(const Fact::Members& members)
+/** \param members names and texts of JSON */
+std::string
+writeObject(const std::vector<std::pair<std::string, std::string>>& members)
 {
-  if (members.empty())
-    return {};
-  Json object;
+  std::string text;
+  for (const auto& [name, value] : members)
+    text += (text.empty() ? "" : ",") + write(Json(name)) + ':' + value;
+  return '{' + text + '}';
+}
+
+std::string
+write(const Fact::Members& members)
+{
+  std::vector<std::pair<std::string, std::string>> texts;
   for (const auto& [name, numbers] : members)
-    object[name] = numbers.size() == 1 ? toJson(numbers.front()) : toJson(numbers);
-  return object;
+    texts.emplace_back(name,
+                       numbers.size() == 1 ? write(numbers.front()) : write(numbers));
+  return texts.empty() ? "null" : writeObject(texts);
 }
 
 std::string
@@ -72,7 +84,7 @@ Fact::Fact(std::string name, std::string text)
     : name_(std::move(name))
     , key_(makeKey(name_))
     , text_(std::move(text))
-    , json_(write(text_))
+    , json_(write(Json(text_)))
 {
 }
 
@@ -85,7 +97,7 @@ Fact::Fact(std::string name, std::string text, double number)
     : name_(std::move(name))
     , key_(makeKey(name_))
     , text_(std::move(text))
-    , json_(write(toJson(number)))
+    , json_(write(number))
 {
 }
 
@@ -98,7 +110,7 @@ Fact::Fact(std::string name, std::string text, const Numbers& numbers)
     : name_(std::move(name))
     , key_(makeKey(name_))
     , text_(std::move(text))
-    , json_(write(toJson(numbers)))
+    , json_(write(numbers))
 {
 }
 
@@ -106,7 +118,7 @@ Fact::Fact(std::string name, std::string text, const Members& members)
     : name_(std::move(name))
     , key_(makeKey(name_))
     , text_(std::move(text))
-    , json_(write(toJson(members)))
+    , json_(write(members))
 {
 }
 
@@ -114,10 +126,10 @@ Fact::Fact(std::string name, const std::vector<Fact>& facts)
     : name_(std::move(name))
     , key_(makeKey(name_))
 {
-  Json object = Json::object();
+  std::vector<std::pair<std::string, std::string>> members;
   for (const Fact& fact : facts)
-    object[fact.name_] = Json::parse(fact.json_);
-  json_ = write(object);
+    members.emplace_back(fact.name_, fact.json_);
+  json_ = writeObject(members);
 }
 
 Fact
