@@ -3,6 +3,7 @@
 // inside; of a mesh, or of the isosurfaces of samples.
 #include "charts/line_plot.h"
 #include "charts/picture_file.h"
+#include "common/printable.h"
 #include "common/scalar_field.h"
 #include "pipeline/memory_need.h"
 #include "shared/isosurface_options.h"
@@ -203,6 +204,23 @@ areLogarithmic(const std::vector<double>& isovalues)
              std::abs(middle - 0.5 * (low + high));
 }
 
+/** Names of columns, as many as a sentence holds. */
+std::string
+listColumns(const uvol_tools::MeasureTable& table)
+{
+  constexpr std::size_t most_bytes = 140;
+  std::string text;
+  std::size_t left = table.getColumns().size();
+  for (const auto& [column, numbers] : table.getColumns()) {
+    const std::string name = pcl_uvol::shortenText(column);
+    if (text.size() + name.size() > most_bytes)
+      return text + " and " + std::to_string(left) + " more";
+    text += (text.empty() ? "" : ", ") + name;
+    --left;
+  }
+  return text;
+}
+
 /** The column of -plot over another one, without the rows of pieces. */
 uvol_tools::Profile
 makeProfile(const Arguments& arguments,
@@ -210,13 +228,9 @@ makeProfile(const Arguments& arguments,
             const std::string& abscissa)
 {
   const std::vector<double>* const values = table.find(arguments.plot);
-  if (values == nullptr) {
-    std::string names;
-    for (const auto& [name, numbers] : table.getColumns())
-      names += (names.empty() ? "" : ", ") + name;
-    throw UsageError("There is no column " + arguments.plot + " to plot; there are " +
-                     names + ".");
-  }
+  if (values == nullptr)
+    throw UsageError("There is no column " + pcl_uvol::quoteText(arguments.plot) +
+                     " to plot; there are " + listColumns(table) + ".");
   const std::vector<double>* const errors = table.find(arguments.plot + "_error");
   const std::vector<double>& pieces = *table.find("piece");
   std::vector<std::size_t> order;

@@ -99,6 +99,7 @@ TEST_F(MaxMemory, SaysWhatIsWrong)
   expectFailure(iso_ + bound_ + "-scale auto", 2, "-scale auto");
   expectFailure(iso_ + bound_ + "-neighbors voronoi", 2, "-neighbors voronoi");
   expectFailure(iso_ + bound_ + "-where 'x>0'", 2, "-where");
+  expectFailure(iso_ + bound_ + "-fill-gaps", 2, "-fill-gaps");
   expectFailure(iso_ + "-scratch .", 2, "-max-memory");
   expectFailure(iso_ + bound_ + "-scratch /nowhere", 1, "/nowhere");
   expectFailure(bound_ + "-iso 0.3 -field density", 1, "density");

@@ -4,6 +4,7 @@
 
 #include "common/scalar_field.h"
 #include "support/environment.h"
+#include "tools/sentences.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/io/dataset.h>
 
@@ -74,6 +75,7 @@ protected:
     const bool is_marked = result.err.find("\n  ") != std::string::npos;
     EXPECT_EQ(is_marked ? 3 : 1, std::count(result.err.begin(), result.err.end(), '\n'))
         << result.err;
+    expectSentences(tool_.substr(tool_.rfind('/') + 1), result);
     EXPECT_EQ(std::vector<std::string>{"in.csv"}, folder_.list()) << options;
   }
 

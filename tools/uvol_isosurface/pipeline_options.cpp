@@ -174,11 +174,9 @@ PipelineOptions::checkCombinations(const Options& options) const
   if (options.given("max-memory") && needsAllSamples())
     throw UsageError(
         "-max-memory goes without -density, -outside-value, -periodic, -smooth, "
-        "-where, -scale auto, -scale spacing, -rotate, -validate, -fill-gaps, -mesh, "
-        "-measure, -neighbors "
-        "voronoi "
-        "or exact and derivatives as fields, which need all samples in "
-        "memory.");
+        "-where, -scale auto or spacing, -rotate, -validate, -fill-gaps, -mesh, "
+        "-measure, -neighbors voronoi or exact and derivatives as fields: they need "
+        "all samples.");
   if (periodic.isAskedFor() && isTurned(parameters))
     throw UsageError("-periodic goes without -rotate and a -scale of nine numbers: the "
                      "sides of the box lie along x, y and z.");
