@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One name for all tools: uvol isosurface in.csv out.ply ... is uvol_isosurface with
 // the same arguments. The tools are those that lie beside it.
+#include "common/printable.h"
 #include "common/similar_words.h"
 #include "io/folder.h"
 #include "io/formats.h"
@@ -48,7 +49,7 @@ findTool(const std::string& name)
   if (std::find(names.begin(), names.end(), name) != names.end())
     return (findFolder() / (prefix + name)).string();
   const std::string similar = pcl_uvol::findSimilar(names, name);
-  throw UsageError("There is no tool '" + name + "'" +
+  throw UsageError("There is no tool " + pcl_uvol::quoteText(name) +
                    (similar.empty() ? "." : "; did you mean " + similar + "?"));
 }
 

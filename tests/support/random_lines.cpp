@@ -31,13 +31,6 @@ split(const std::string& text, char separator)
 }
 
 std::string
-pick(const Words& words, Random& random)
-{
-  return words[static_cast<std::size_t>(random.uniform() *
-                                        static_cast<double>(words.size()))];
-}
-
-std::string
 makeNumbers(const std::string& placeholder, Random& random)
 {
   static const Words numbers{"0", "1", "-1", "0.5", "2", "1e-30", "1e30", "nan", "x"};
@@ -147,6 +140,19 @@ expectReport(const std::string& text)
 
 } // namespace
 
+std::uint64_t
+countDefaultLines()
+{
+  return isSanitized() ? 25 : 200;
+}
+
+std::string
+pick(const Words& words, Random& random)
+{
+  return words[static_cast<std::size_t>(random.uniform() *
+                                        static_cast<double>(words.size()))];
+}
+
 RandomLines::RandomLines(const RandomTool& tool)
     : tool_(tool)
     , options_(listOptions(tool.name))
@@ -250,7 +256,7 @@ RandomLines::runLine(std::uint64_t seed)
 {
   Random random(seed);
   const std::string tool = std::string("uvol_") + tool_.name;
-  std::string line = tool;
+  std::string line = tool_.launcher.empty() ? tool : tool_.launcher;
   for (std::size_t i = 0; i < tool_.inputs; ++i)
     line += " '" + (folder_ / pick(files_, random)) + '\'';
   line += makeLine(random) + " -json";

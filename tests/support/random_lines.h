@@ -19,7 +19,17 @@ struct RandomTool {
   const char* needed;  ///< options that it does not go without, parted by ;
   std::size_t inputs = 1;
   const char* output_option = ""; ///< in front of what it writes
+  std::string launcher = "";      ///< what starts it, where that is not its name
 };
+
+/** \brief Lines of a tool that the default tests run; under a sanitizer, where a tool
+ * takes a second to begin, fewer. */
+std::uint64_t
+countDefaultLines();
+
+/** \brief One of several words. */
+std::string
+pick(const std::vector<std::string>& words, Random& random);
 
 /** \brief Runs lines of a tool, each made from a seed, on files of its own. */
 class RandomLines {

@@ -16,6 +16,7 @@ protected:
       "viewer", "png", "-size 16x16;-size 16x16 -field f", 1, "-screenshot "};
 };
 
+// Each line costs a second or so: Mesa draws in software, and the display sends it.
 TEST_F(RandomViewerOptions, EndInASentenceOrAResult)
 {
   RandomLines(viewer_).run(0, 10);
