@@ -5,7 +5,11 @@
 #include <atomic>
 #include <chrono>
 #include <exception>
+#include <mutex>
+#include <new>
 #include <omp.h>
+#include <system_error>
+#include <thread>
 
 namespace pcl_uvol {
 
@@ -67,12 +71,63 @@ runAlone(std::ptrdiff_t blocks, const RunBlock& run_block)
   return blocks;
 }
 
+/** Starts threads that live at the same time. Returns how many the system gives. */
+unsigned
+startAtOnce(unsigned count)
+{
+  std::vector<std::thread> threads;
+  threads.reserve(count);
+  std::mutex end;
+  {
+    const std::lock_guard<std::mutex> none_ends(end);
+    try {
+      while (threads.size() < count)
+        threads.emplace_back([&end] { const std::lock_guard<std::mutex> ends(end); });
+    }
+    catch (const std::system_error&) { // there are no more
+    }
+    catch (const std::bad_alloc&) {
+    }
+  }
+  for (std::thread& thread : threads)
+    thread.join();
+  return static_cast<unsigned>(threads.size());
+}
+
+/** The team that this thread opened last: OpenMP keeps its threads. */
+thread_local unsigned last_team = 1;
+
+/** OpenMP's runtime ends the program where it gets no memory for a team or a task: what
+ * was had for a moment is there for it.
+ * \throws std::bad_alloc where there is none */
+void
+checkMemory()
+{
+  constexpr std::size_t enough = 1 << 16;    // below what malloc maps apart
+  ::operator delete(::operator new(enough)); // no compiler leaves this out
+}
+
+/** As many of a team as there are threads for: OpenMP's runtime ends the program where
+ * it is given too few. Those that were had for a moment leave it their stacks. */
+unsigned
+limitTeam(unsigned team)
+{
+  const bool is_inner = omp_get_active_level() >= omp_get_max_active_levels();
+  if (team <= 1 || is_inner) // nothing is started
+    return team;
+  checkMemory();
+  if (team > last_team)
+    team = last_team + startAtOnce(team - last_team);
+  return last_team = team;
+}
+
 /** The team that the next fork opens; none within one. */
 thread_local unsigned team_to_open = 1;
 
 void
 forkInTeam(const std::function<void()>& left, const std::function<void()>& right)
 {
+  checkMemory();
   FirstException first;
 #pragma omp task shared(left, first)
   first.guard(left);
@@ -114,12 +169,13 @@ parallelBlocks(std::size_t count,
   }
   // Blocks of one item are tasks, one per thread, say: there is nothing to divide.
   const std::ptrdiff_t done = block == 1 ? 0 : runAlone(blocks, run_block);
-  const auto team = static_cast<int>(
-      std::min<std::size_t>(most_threads, static_cast<std::size_t>(blocks - done)));
-  if (team == 0)
+  const auto left = static_cast<std::size_t>(blocks - done);
+  if (left == 0)
     return;
+  const auto team = static_cast<unsigned>(std::min<std::size_t>(most_threads, left));
+  const auto threads_given = static_cast<int>(limitTeam(team));
   FirstException first;
-#pragma omp parallel for schedule(dynamic) num_threads(team)
+#pragma omp parallel for schedule(dynamic) num_threads(threads_given)
   for (std::ptrdiff_t b = done; b < blocks; ++b)
     first.guard([&] { run_block(b); });
   first.rethrow();
@@ -156,9 +212,10 @@ TaskGroup::fork(const std::function<void()>& left, const std::function<void()>& 
     return;
   }
   const unsigned team = team_to_open;
+  const auto threads_given = static_cast<int>(limitTeam(team));
   team_to_open = 1;
   FirstException first;
-#pragma omp parallel num_threads(static_cast <int>(team))
+#pragma omp parallel num_threads(threads_given)
 #pragma omp single
   first.guard([&] { forkInTeam(left, right); });
   team_to_open = team;

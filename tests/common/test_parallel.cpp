@@ -7,9 +7,14 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cstdlib>
+#include <fstream>
 #include <functional>
+#include <pthread.h>
 #include <stdexcept>
+#include <sys/resource.h>
 #include <thread>
+#include <unistd.h>
 #include <vector>
 
 namespace {
@@ -74,6 +79,41 @@ TEST(Parallel, AnyNumberOfThreadsCanBeAskedFor)
     EXPECT_EQ(100000u, done);
   }
   EXPECT_EQ(7u, pcl_uvol::resolveThreads(7));
+}
+
+/** A process with address space for few stacks; its exit code is 0 if all of its work
+ * was done. */
+[[noreturn]] void
+workWithRoomFor(double stacks)
+{
+  pthread_attr_t attributes;
+  std::size_t stack_size = 0;
+  pthread_attr_init(&attributes);
+  pthread_attr_getstacksize(&attributes, &stack_size);
+  std::size_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  rlimit limit{};
+  limit.rlim_cur = limit.rlim_max =
+      pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE)) +
+      static_cast<std::size_t>(stacks * static_cast<double>(stack_size));
+  setrlimit(RLIMIT_AS, &limit);
+  std::atomic<int> done{0};
+  for (const unsigned threads : {2u, 7u, 3u, 7u}) {
+    pcl_uvol::parallelBlocks(
+        100, 1, threads, [&](std::size_t, std::size_t) { ++done; });
+    pcl_uvol::TaskGroup::run(
+        threads, [&] { pcl_uvol::TaskGroup::fork([&] { ++done; }, [&] { ++done; }); });
+  }
+  std::_Exit(done == 4 * 102 ? 0 : 1);
+}
+
+TEST(Parallel, WorkIsDoneByTheThreadsThatTheSystemGives)
+{
+  if (uvol_test::isSanitized())
+    GTEST_SKIP() << "a sanitizer needs all address space";
+  GTEST_FLAG_SET(death_test_style, "threadsafe"); // OpenMP does not survive a fork
+  for (const double stacks : {0.5, 1.5, 2.5, 4.5, 10.0})
+    EXPECT_EXIT(workWithRoomFor(stacks), testing::ExitedWithCode(0), "^$") << stacks;
 }
 
 /** Blocks that take no time stay with the caller's thread; those that do are shared,
