@@ -2,11 +2,13 @@
 // uvol_isosurface within a bound of memory: the same file, or one sentence.
 #include "common/random.h"
 #include "support/environment.h"
+#include "tools/sentences.h"
 #include "tools/tool_test.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <regex>
 #include <sstream>
 
@@ -115,6 +117,31 @@ TEST_F(MaxMemory, NamesFormatsThatDoNotStream)
                                             " -field number -iso 100 " + bound_);
   EXPECT_EQ(1, result.exit_code);
   EXPECT_NE(std::string::npos, result.err.find("PCD")) << result.err;
+}
+
+/** A disk that is full from a write on, as the library of faults makes it, and files
+ * that may not grow. */
+TEST_F(MaxMemory, AFullScratchFolderIsOneSentence)
+{
+  namespace fs = std::filesystem;
+  const std::string scratch = folder_ / "scratch";
+  fs::create_directory(scratch);
+  std::vector<std::string> limits{"ulimit -f 100; "};
+  if (!uvol_test::isSanitized()) // which has to be loaded first
+    for (const std::string write : {"1", "3", "9"})
+      limits.push_back("LD_PRELOAD=" PCL_UVOL_FAULTS " UVOL_FAULTS=write:" + write +
+                       "+ ");
+  for (const std::string& limit : limits) {
+    SCOPED_TRACE(limit);
+    const auto result =
+        uvol_test::runCommand(limit + "timeout 30 uvol_isosurface " + in_ + ' ' + out_ +
+                              ' ' + iso_ + bound_ + "-scratch " + scratch);
+    EXPECT_EQ(1, result.exit_code);
+    EXPECT_NE(std::string::npos, result.err.find("The scratch folder ")) << result.err;
+    uvol_test::expectSentences(tool_, result);
+    EXPECT_EQ((std::vector<std::string>{"in.csv", "scratch"}), folder_.list());
+    EXPECT_TRUE(fs::is_empty(scratch));
+  }
 }
 
 } // namespace
