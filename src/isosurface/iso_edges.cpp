@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <unordered_set>
 
 namespace pcl_uvol {
 
@@ -137,11 +138,14 @@ interpolateFields(const CloudView& samples,
   result.is_dense = isopoints.is_dense;
   result.point_step = 0;
   std::vector<FieldCopy> own, carried;
+  std::unordered_set<std::string> taken;
   for (const auto& field : isopoints.fields)
-    if (!isPadding(field))
+    if (!isPadding(field)) {
       own.push_back(append(field, result));
+      taken.insert(field.name);
+    }
   for (const auto& field : samples.fields)
-    if (!isPadding(field) && findField(result.fields, field.name) == nullptr)
+    if (!isPadding(field) && taken.insert(field.name).second)
       carried.push_back(append(field, result));
   constexpr pcl::uindex_t alignment = sizeof(float); // so that viewOf() takes it
   result.point_step = (result.point_step + alignment - 1) / alignment * alignment;
