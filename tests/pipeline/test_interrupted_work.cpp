@@ -7,10 +7,13 @@
 #include "support/clouds.h"
 #include "support/interruption.h"
 #include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/derivatives/gradient_estimation.h>
 #include <pcl_uvol/interpolation/cross_validation.h>
 #include <pcl_uvol/interpolation/field_interpolation.h>
 #include <pcl_uvol/mesh/surface_measures.h>
+#include <pcl_uvol/multivariate/cluster_membership.h>
 #include <pcl_uvol/multivariate/density_clustering.h>
+#include <pcl_uvol/neighbors/natural_neighbors.h>
 #include <pcl_uvol/neighbors/voronoi_diagram.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 #include <pcl_uvol/render/image_space/image_space_renderer.h>
@@ -21,8 +24,10 @@
 #include <gtest/gtest.h>
 #include <pcl/conversions.h>
 
+#include <algorithm>
 #include <memory>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -288,6 +293,62 @@ TEST(InterruptedWork, ClustersAndVoronoiDiagrams)
       [&](const ProgressCallback& progress) {
         diagram.setProgressCallback(progress);
         return diagram.compute()->getNearest();
+      },
+      1);
+}
+
+TEST(InterruptedWork, NeighborsFromEverySource)
+{
+  const Ball ball;
+  NaturalNeighbors<Cloud> neighbors;
+  neighbors.setInputCloud(ball.cloud);
+  for (const auto source :
+       {NeighborSource::KdTree, NeighborSource::Voronoi, NeighborSource::Exact}) {
+    neighbors.setNeighborSource(source);
+    interruptEveryStep(
+        [&](const ProgressCallback& progress) {
+          neighbors.setProgressCallback(progress);
+          NeighborGraph graph;
+          neighbors.compute(graph);
+          return std::pair(graph.offsets, graph.indices);
+        },
+        2);
+  }
+}
+
+TEST(InterruptedWork, Gradients)
+{
+  GradientEstimation<pcl::PointXYZI> estimation;
+  estimation.setInputCloud(uvol_test::makeRadialCloud(3000, 1).cloud);
+  interruptEveryStep(
+      [&](const ProgressCallback& progress) {
+        estimation.setProgressCallback(progress);
+        pcl::PointCloud<PointGradient> gradients;
+        estimation.compute(gradients);
+        Cloud bytes;
+        pcl::toPCLPointCloud2(gradients, bytes);
+        return bytes.data;
+      },
+      2);
+}
+
+TEST(InterruptedWork, Memberships)
+{
+  const Ball ball;
+  std::vector<int> labels(viewOf(*ball.cloud).count);
+  std::fill(labels.begin(), labels.begin() + 1000, 1);
+  ClusterMembership<Cloud> membership;
+  membership.setInputCloud(ball.cloud);
+  membership.setLabels(labels);
+  MembershipParameters parameters;
+  parameters.smoothing_length = "intensity";
+  membership.setParameters(parameters);
+  interruptEveryStep(
+      [&](const ProgressCallback& progress) {
+        membership.setProgressCallback(progress);
+        std::vector<float> values;
+        membership.compute(values);
+        return values;
       },
       1);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Surfaces around clusters: what they enclose, and how far away they are.
+#include "support/interruption.h"
 #include "vtk/cluster_shapes.h"
 
 #include <pcl/point_types.h>
@@ -431,6 +432,32 @@ TEST(ClusterSurfaceGeneration, IsAStageWithParameters)
   EXPECT_TRUE(parameters == ClusterSurfaceParameters::fromJson(parameters.toJson()));
   EXPECT_EQ(ClusterSurfaceParameters::fromJson(R"({"kind": "hull"})").kind,
             ClusterSurfaceKind::Hull);
+}
+
+/** What a progress callback throws ends it, and leaves it fit for the next run. */
+TEST(ClusterSurfaces, AreInterruptedAtEveryStep)
+{
+  const auto cloud = pcl::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
+  for (const Vector3d& point : torusOf(2000, 3)) {
+    const Eigen::Vector3f place = point.cast<float>();
+    cloud->push_back({place[0], place[1], place[2]});
+  }
+  pcl_uvol::ClusterSurfaceGeneration<pcl::PointXYZ> generation;
+  generation.setInputCloud(cloud);
+  for (const auto kind : all_kinds) {
+    ClusterSurfaceParameters parameters;
+    parameters.kind = kind;
+    parameters.cells = 32;
+    generation.setParameters(parameters);
+    interruptEveryStep(
+        [&](const pcl_uvol::ProgressCallback& progress) {
+          generation.setProgressCallback(progress);
+          ClusterSurface surface;
+          generation.compute(surface);
+          return std::pair(surface.mesh.vertices, surface.mesh.triangles);
+        },
+        2);
+  }
 }
 
 } // namespace
