@@ -200,7 +200,8 @@ public:
    * figures with large errors, a surface that looks inwards, and triangles that
    * intersect.
    * \throws InvalidArgument without a surface, for a vertex of a triangle that is not
-   * finite or not there, for triangles that are no oriented manifold, and without
+   * finite or not there, for triangles that are no oriented manifold, for more than 10
+   * million pairs of triangles that intersect, where these are looked for, and without
    * triangles for points that have no normals, or with samples */
   SurfaceFigures
   compute();
