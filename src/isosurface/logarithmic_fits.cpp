@@ -52,9 +52,12 @@ LogarithmicFits::LogarithmicFits(FitKernel fit, float isovalue)
 bool
 LogarithmicFits::isSteep(const Surroundings& surroundings) const
 {
-  const double a = surroundings.values.lowest / isovalue_,
-               b = surroundings.values.highest / isovalue_;
-  return std::min(a, b) > 0.0 && std::max(a, b) > steep_factor * std::min(a, b);
+  const ValueSpan& values = surroundings.values;
+  const double a = values.lowest / isovalue_, b = values.highest / isovalue_;
+  // Ends of a long edge need not be among the fitted samples.
+  return std::min({a, b, values.edge[0] / isovalue_, values.edge[1] / isovalue_}) >
+             0.0 &&
+         std::max(a, b) > steep_factor * std::min(a, b);
 }
 
 double

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -151,6 +152,18 @@ TEST_F(LogarithmicFit, IsMadeOfValuesThatVaryByAFactor)
     isTaken(isovalue);
     EXPECT_EQ(is_made, !fitted.empty()) << lowest << " to " << highest;
   }
+}
+
+TEST_F(LogarithmicFit, IsNotMadeWhereAnEndOfTheEdgeHasNoLogarithm)
+{
+  for (const double end : {0.0, -1.0})
+    for (double& value : surroundings_[lane].values.edge) {
+      const double before = std::exchange(value, end);
+      isTaken();
+      EXPECT_TRUE(fitted.empty()) << end;
+      value = before;
+    }
+  EXPECT_TRUE(isTaken());
 }
 
 TEST_F(LogarithmicFit, IsNotMadeOfLabelsNorWithoutSamples)
