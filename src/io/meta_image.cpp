@@ -37,15 +37,9 @@ parseDatatype(std::string_view name)
 }
 
 /** Takes lines of the form "Key = value" up to ElementDataFile. */
-class HeaderParser : VolumeHeader {
+class HeaderParser final : public VolumeHeader {
 public:
   using VolumeHeader::VolumeHeader;
-
-  Volume
-  read();
-
-  std::vector<std::string>
-  findFiles();
 
 private:
   void
@@ -57,9 +51,9 @@ private:
   void
   takeNumbers(std::string_view value);
   void
-  parse();
+  parse() override;
   void
-  finish();
+  finish() override;
 
   std::uint64_t dimensions_ = 0, channels_ = 1;
   bool has_spacing_ = false, compressed_ = false;
@@ -182,22 +176,6 @@ HeaderParser::parse()
     take(key, value);
   }
   throwUnreadable(path_, "its header has no ElementDataFile");
-}
-
-Volume
-HeaderParser::read()
-{
-  parse();
-  finish();
-  readValues(path_, data_, volume_);
-  return std::move(volume_);
-}
-
-std::vector<std::string>
-HeaderParser::findFiles()
-{
-  parse();
-  return data_.files;
 }
 
 } // namespace

@@ -49,15 +49,9 @@ parseDatatype(const std::string& name)
 }
 
 /** Takes lines of the form "field: value" up to an empty one. */
-class HeaderParser : VolumeHeader {
+class HeaderParser final : public VolumeHeader {
 public:
   using VolumeHeader::VolumeHeader;
-
-  Volume
-  read();
-
-  std::vector<std::string>
-  findFiles();
 
 private:
   void
@@ -69,9 +63,9 @@ private:
   std::uint64_t
   countIn(std::string_view value) const;
   void
-  parse();
+  parse() override;
   void
-  finish();
+  finish() override;
 
   bool has_order_ = false;
   std::vector<double> spacings_;
@@ -213,22 +207,6 @@ HeaderParser::parse()
     data_.files = {path_};
     data_.offset = cursor_.tell().offset;
   }
-}
-
-Volume
-HeaderParser::read()
-{
-  parse();
-  finish();
-  readValues(path_, data_, volume_);
-  return std::move(volume_);
-}
-
-std::vector<std::string>
-HeaderParser::findFiles()
-{
-  parse();
-  return data_.files;
 }
 
 } // namespace

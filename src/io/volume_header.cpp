@@ -7,6 +7,22 @@
 namespace pcl_uvol {
 namespace io {
 
+Volume
+VolumeHeader::read()
+{
+  parse();
+  finish();
+  readValues(path_, data_, volume_);
+  return std::move(volume_);
+}
+
+std::vector<std::string>
+VolumeHeader::findFiles()
+{
+  parse();
+  return data_.files;
+}
+
 void
 VolumeHeader::takeFiles(std::string_view value)
 {

@@ -22,8 +22,26 @@ public:
   {
   }
 
+  /** \brief The volume, with the numbers of its files.
+   * \throws IOError */
+  Volume
+  read();
+
+  /** \brief The files of the numbers, the header's own too.
+   * \throws IOError */
+  std::vector<std::string>
+  findFiles();
+
 protected:
   ~VolumeHeader() = default;
+
+  /** \brief Take all that the header says. */
+  virtual void
+  parse() = 0;
+
+  /** \brief Make the volume ready for its numbers. */
+  virtual void
+  finish() = 0;
 
   /** \brief Take the files of the numbers: a list in the lines that follow, a pattern
    * or a single name.
