@@ -118,4 +118,18 @@ signOfArea(const Eigen::Vector3d& a,
   return exactSignOfArea({a[x], a[y], b[x], b[y], c[x], c[y]});
 }
 
+int
+findVisibleAxis(const Eigen::Vector3d& a,
+                const Eigen::Vector3d& b,
+                const Eigen::Vector3d& c)
+{
+  // The sign of an area of zero takes whole numbers: the largest area comes first.
+  int largest = 0;
+  (b - a).cross(c - a).cwiseAbs().maxCoeff(&largest);
+  for (int i = 0; i < 3; ++i)
+    if (const int axis = (largest + i) % 3; signOfArea(a, b, c, axis) != 0)
+      return axis;
+  return -1;
+}
+
 } // namespace pcl_uvol::detail

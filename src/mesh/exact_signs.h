@@ -26,4 +26,11 @@ signOfArea(const Eigen::Vector3d& a,
            const Eigen::Vector3d& c,
            int dropped_axis);
 
+/** \brief An axis along which a triangle is not seen from its side; -1 for one without
+ * area. Exact as well. */
+PCL_UVOL_EXPORTS int
+findVisibleAxis(const Eigen::Vector3d& a,
+                const Eigen::Vector3d& b,
+                const Eigen::Vector3d& c);
+
 } // namespace pcl_uvol::detail

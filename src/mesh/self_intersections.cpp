@@ -3,6 +3,7 @@
 
 #include "common/numbers.h"
 #include "common/parallel.h"
+#include "mesh/edge_fans.h"
 #include "mesh/exact_signs.h"
 #include "mesh/measured_mesh.h"
 #include "mesh/triangle_tree.h"
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <functional>
 #include <sstream>
 
 namespace pcl_uvol::detail {
@@ -43,24 +45,10 @@ boxOf(const Places& places)
   return box;
 }
 
-/** An axis along which a triangle is seen from its side nowhere; -1 for one without
- * area. */
-int
-findAxis(const Place& a, const Place& b, const Place& c)
-{
-  // The sign of an area of zero takes whole numbers: the largest area comes first.
-  int largest = 0;
-  (b - a).cross(c - a).cwiseAbs().maxCoeff(&largest);
-  for (int i = 0; i < 3; ++i)
-    if (const int axis = (largest + i) % 3; signOfArea(a, b, c, axis) != 0)
-      return axis;
-  return -1;
-}
-
 bool
 hasArea(const std::array<Place, 3>& corners)
 {
-  return findAxis(corners[0], corners[1], corners[2]) >= 0;
+  return findVisibleAxis(corners[0], corners[1], corners[2]) >= 0;
 }
 
 /** Whether a place in the plane of a triangle is in it, its edges included. */
@@ -97,7 +85,7 @@ meets(const Place& p, const Place& q, const std::array<Place, 3>& corners)
   if (of_p * of_q > 0)
     return false;
   if (of_p == 0 || of_q == 0) {
-    const int axis = findAxis(a, b, c);
+    const int axis = findVisibleAxis(a, b, c);
     if ((of_p == 0 && isWithin(p, corners, axis)) ||
         (of_q == 0 && isWithin(q, corners, axis)))
       return true;
@@ -113,6 +101,99 @@ meets(const Place& p, const Place& q, const std::array<Place, 3>& corners)
   return *lowest >= 0 || *highest <= 0;
 }
 
+/** Vertices that two triangles share. */
+class SharedVertices {
+public:
+  SharedVertices(const Triangle& a, const Triangle& b)
+  {
+    for (const std::uint32_t vertex : a)
+      if (std::find(b.begin(), b.end(), vertex) != b.end())
+        vertices_[count_++] = vertex;
+  }
+
+  std::size_t
+  count() const
+  {
+    return count_;
+  }
+
+  bool
+  has(std::uint32_t vertex) const
+  {
+    const auto end = vertices_.begin() + static_cast<std::ptrdiff_t>(count_);
+    return std::find(vertices_.begin(), end, vertex) != end;
+  }
+
+  std::uint32_t
+  operator[](std::size_t i) const
+  {
+    return vertices_[i];
+  }
+
+private:
+  Triangle vertices_;
+  std::size_t count_ = 0;
+};
+
+/** Whether triangles at one edge lie on each other: their tips are on one side of the
+ * edge in one plane. */
+bool
+areFolded(const std::vector<Place>& places,
+          const Triangle& a,
+          const Triangle& b,
+          const SharedVertices& shared)
+{
+  const auto tipOf = [&](const Triangle& triangle) -> const Place& {
+    return places[*std::find_if_not(
+        triangle.begin(), triangle.end(), [&](std::uint32_t vertex) {
+          return shared.has(vertex);
+        })];
+  };
+  const Place &p = places[shared[0]], &q = places[shared[1]];
+  const Place &of_a = tipOf(a), &of_b = tipOf(b);
+  if (signOfVolume(p, q, of_a, of_b) != 0)
+    return false;
+  const int axis = findVisibleAxis(p, q, of_a);
+  return signOfArea(p, q, of_a, axis) == signOfArea(p, q, of_b, axis);
+}
+
+/** Whether an edge of a triangle meets another one with area, but those at a shared
+ * vertex, which do so there; where they share more, the edge opposite to it meets as
+ * well. */
+bool
+entersWithEdge(const std::vector<Place>& places,
+               const Triangle& triangle,
+               const Triangle& other,
+               const SharedVertices& shared)
+{
+  const std::array<Place, 3> corners = cornersOf(places, other);
+  const Eigen::AlignedBox3d box = boxOf(corners);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::uint32_t from = triangle[i], to = triangle[(i + 1) % 3];
+    if (!shared.has(from) && !shared.has(to) &&
+        box.intersects(boxOf(std::array{places[from], places[to]})) &&
+        meets(places[from], places[to], corners))
+      return true;
+  }
+  return false;
+}
+
+/** The same of triangles with areas; each pair of them is told once: by the lower one
+ * at a shared edge and where the edges of both enter, else by the one whose do. */
+bool
+tellsOfIntersection(const std::vector<Place>& places,
+                    const std::vector<Triangle>& triangles,
+                    std::uint32_t number,
+                    std::uint32_t other)
+{
+  const Triangle &a = triangles[number], &b = triangles[other];
+  const SharedVertices shared(a, b);
+  if (shared.count() >= 2)
+    return number < other && (shared.count() == 3 || areFolded(places, a, b, shared));
+  return entersWithEdge(places, a, b, shared) &&
+         (number < other || !entersWithEdge(places, b, a, shared));
+}
+
 } // namespace
 
 bool
@@ -120,43 +201,10 @@ doIntersect(const std::vector<Eigen::Vector3d>& places,
             const Triangle& a,
             const Triangle& b)
 {
-  const std::array<Place, 3> of_a = cornersOf(places, a), of_b = cornersOf(places, b);
-  const int axis = findAxis(of_a[0], of_a[1], of_a[2]);
-  if (axis < 0 || !hasArea(of_b))
-    return false;
-  Triangle shared;
-  const auto end = std::copy_if(a.begin(), a.end(), shared.begin(), [&](auto vertex) {
-    return std::find(b.begin(), b.end(), vertex) != b.end();
-  });
-  if (end == shared.end())
-    return true;
-  const auto isShared = [&](std::uint32_t vertex) {
-    return std::find(shared.begin(), end, vertex) != end;
-  };
-  if (end - shared.begin() == 2) {
-    // Folded onto each other: the tips are on one side of the edge in one plane.
-    const Place &tip_a = places[*std::find_if_not(a.begin(), a.end(), isShared)],
-                &tip_b = places[*std::find_if_not(b.begin(), b.end(), isShared)],
-                &p = places[shared[0]], &q = places[shared[1]];
-    return signOfVolume(p, q, tip_a, tip_b) == 0 &&
-           signOfArea(p, q, tip_a, axis) == signOfArea(p, q, tip_b, axis);
-  }
-  // Edges of one that meet the other; those at a shared vertex do so there, and what
-  // more they share, edges opposite to it meet as well.
-  const auto anyMeets = [&](const Triangle& edges,
-                            const std::array<Place, 3>& of_edges,
-                            const std::array<Place, 3>& other) {
-    const Eigen::AlignedBox3d box = boxOf(other);
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t k = (i + 1) % 3;
-      if (!isShared(edges[i]) && !isShared(edges[k]) &&
-          box.intersects(boxOf(std::array{of_edges[i], of_edges[k]})) &&
-          meets(of_edges[i], of_edges[k], other))
-        return true;
-    }
-    return false;
-  };
-  return anyMeets(a, of_a, of_b) || anyMeets(b, of_b, of_a);
+  const std::vector<Triangle> both{a, b};
+  return hasArea(cornersOf(places, a)) && hasArea(cornersOf(places, b)) &&
+         (tellsOfIntersection(places, both, 0, 1) ||
+          tellsOfIntersection(places, both, 1, 0));
 }
 
 std::vector<std::pair<std::uint32_t, std::uint32_t>>
@@ -167,40 +215,47 @@ findSelfIntersections(const std::vector<Eigen::Vector3d>& places,
                       Report& report)
 {
   StepTimer step(report, "intersections", triangles.size());
+  // Asked for once: of lines it takes whole numbers to tell that they have no area.
+  std::vector<Triangle> solid;
+  std::vector<std::uint32_t> number_of;
+  for (std::uint32_t i = 0; i < triangles.size(); ++i)
+    if (hasArea(cornersOf(places, triangles[i]))) {
+      solid.push_back(triangles[i]);
+      number_of.push_back(i);
+    }
+  if (solid.empty())
+    return {};
   const auto areOfOne = [&](const Triangle& a, const Triangle& b) {
     return surface_of.empty() || surface_of[a[0]] == surface_of[b[0]];
   };
   using Pair = std::pair<std::uint32_t, std::uint32_t>;
-  const TriangleTree tree(places, triangles);
-  std::vector<bool> has_area; // told once: of lines it takes whole numbers
-  for (const Triangle& triangle : triangles)
-    has_area.push_back(hasArea(cornersOf(places, triangle)));
+  const TriangleTree tree(places, solid);
+  const EdgeFans fans(places, solid);
   std::atomic<std::size_t> total{0};
-  return parallelGather<Pair>(
-      triangles.size(),
-      block_triangles,
-      threads,
-      [&](auto begin, auto end, auto& pairs) {
-        std::vector<std::uint32_t> found;
-        for (std::size_t i = begin; i < end; ++i) {
-          const auto first = static_cast<std::uint32_t>(i);
-          if (!has_area[i])
-            continue;
-          const std::size_t before = pairs.size();
-          tree.findOverlapping(boxOf(cornersOf(places, triangles[i])), found);
-          for (const std::uint32_t second : found)
-            if (second > first && has_area[second] &&
-                areOfOne(triangles[first], triangles[second]) &&
-                doIntersect(places, triangles[first], triangles[second]))
-              pairs.emplace_back(first, second);
-          std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(before), pairs.end());
-          if ((total += pairs.size() - before) > most_pairs)
+  auto pairs = parallelGather<Pair>(
+      solid.size(), block_triangles, threads, [&](auto begin, auto end, auto& found) {
+        std::vector<std::uint32_t> others;
+        for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
+          others.clear();
+          fans.findFolded(i, others);
+          for (std::size_t k = 0; k < 3; ++k)
+            tree.findMet(solid[i][k], solid[i][(k + 1) % 3], others);
+          std::sort(others.begin(), others.end());
+          others.erase(std::unique(others.begin(), others.end()), others.end());
+          const std::size_t before = found.size();
+          for (const std::uint32_t other : others)
+            if (areOfOne(solid[i], solid[other]) &&
+                tellsOfIntersection(places, solid, i, other))
+              found.push_back(std::minmax(number_of[i], number_of[other]));
+          if ((total += found.size() - before) > most_pairs)
             throw InvalidArgument("More than " + std::to_string(most_pairs) +
                                   " pairs of triangles of the surface intersect: many "
                                   "lie on one another, repair the mesh.");
         }
         step.advance(end - begin);
       });
+  parallelSort(pairs.begin(), pairs.end(), threads, std::less<Pair>());
+  return pairs;
 }
 
 std::vector<TriangleIntersection>

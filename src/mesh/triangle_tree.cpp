@@ -12,6 +12,11 @@ namespace {
 
 constexpr std::uint32_t leaf_triangles = 4;
 
+constexpr std::uint32_t no_vertex = std::numeric_limits<std::uint32_t>::max();
+
+/** More than rounding takes from a sum of a few products. */
+constexpr double box_rounding = 1e-14;
+
 TrianglePoint
 pointAt(const std::array<Eigen::Vector3d, 3>& corners,
         const std::array<double, 3>& lambda)
@@ -67,6 +72,57 @@ nearestOfTriangle(const std::array<Eigen::Vector3d, 3>& corners,
   return best;
 }
 
+/** What is asked of boxes and triangles for a segment between two vertices. */
+class TriangleTree::Segment {
+public:
+  Segment(const std::vector<Eigen::Vector3d>& places,
+          std::uint32_t from,
+          std::uint32_t to)
+      : ends_{from, to}
+      , middle_(0.5 * places[from] + 0.5 * places[to])
+      , half_(0.5 * places[to] - 0.5 * places[from])
+      , rounding_(box_rounding * (places[from].cwiseAbs() + places[to].cwiseAbs()))
+  {
+    box_.extend(places[from]).extend(places[to]);
+  }
+
+  bool
+  endsIn(const Triangle& triangle) const
+  {
+    return std::any_of(triangle.begin(), triangle.end(), [&](std::uint32_t vertex) {
+      return vertex == ends_[0] || vertex == ends_[1];
+    });
+  }
+
+  /** False only if a box and the segment certainly have no point in common: their
+   * boxes have none, or a plane through the segment parts them (Ericson, 5.3.3). */
+  bool
+  mayMeet(const Eigen::AlignedBox3d& box) const
+  {
+    if (!box.intersects(box_))
+      return false;
+    const Eigen::Array3d rounding =
+        box_rounding * (box.min().array().abs() + box.max().array().abs()) + rounding_;
+    const Eigen::Array3d size =
+        0.5 * box.max().array() - 0.5 * box.min().array() + rounding;
+    const Eigen::Array3d way =
+        middle_ - 0.5 * box.min().array() - 0.5 * box.max().array();
+    for (int i = 0; i < 3; ++i) {
+      const int k = (i + 1) % 3, l = (i + 2) % 3;
+      const double a = way[k] * half_[l], b = way[l] * half_[k],
+                   reach = size[k] * std::abs(half_[l]) + size[l] * std::abs(half_[k]);
+      if (std::abs(a - b) > reach + box_rounding * (reach + std::abs(a) + std::abs(b)))
+        return false;
+    }
+    return true;
+  }
+
+private:
+  std::array<std::uint32_t, 2> ends_;
+  Eigen::AlignedBox3d box_;
+  Eigen::Array3d middle_, half_, rounding_;
+};
+
 TriangleTree::TriangleTree(const std::vector<Eigen::Vector3d>& places,
                            const std::vector<Triangle>& triangles)
     : places_(places)
@@ -88,6 +144,19 @@ TriangleTree::cornersOf(std::uint32_t triangle) const
   return {places_[a], places_[b], places_[c]};
 }
 
+Triangle
+TriangleTree::findCommonCorners(std::uint32_t begin, std::uint32_t end) const
+{
+  Triangle corners = triangles_[order_[begin]];
+  for (std::uint32_t i = begin; i < end; ++i)
+    for (std::uint32_t& corner : corners) {
+      const Triangle& triangle = triangles_[order_[i]];
+      if (std::find(triangle.begin(), triangle.end(), corner) == triangle.end())
+        corner = no_vertex;
+    }
+  return corners;
+}
+
 std::uint32_t
 TriangleTree::build(const std::vector<Eigen::Vector3d>& centers,
                     std::uint32_t begin,
@@ -100,7 +169,7 @@ TriangleTree::build(const std::vector<Eigen::Vector3d>& centers,
       box.extend(corner);
     of_centers.extend(centers[order_[i]]);
   }
-  nodes_.push_back({box, begin, end});
+  nodes_.push_back({box, begin, end, 0, findCommonCorners(begin, end)});
   if (end - begin <= leaf_triangles)
     return number;
   int axis = 0;
@@ -153,31 +222,31 @@ TriangleTree::find(std::uint32_t number,
 }
 
 void
-TriangleTree::findOverlapping(const Eigen::AlignedBox3d& box,
-                              std::vector<std::uint32_t>& found) const
+TriangleTree::findMet(std::uint32_t from,
+                      std::uint32_t to,
+                      std::vector<std::uint32_t>& found) const
 {
-  found.clear();
-  findOverlapping(0, box, found);
+  findMet(0, Segment(places_, from, to), found);
 }
 
 void
-TriangleTree::findOverlapping(std::uint32_t number,
-                              const Eigen::AlignedBox3d& box,
-                              std::vector<std::uint32_t>& found) const
+TriangleTree::findMet(std::uint32_t number,
+                      const Segment& segment,
+                      std::vector<std::uint32_t>& found) const
 {
   const Node& node = nodes_[number];
-  if (!node.box.intersects(box))
+  if (segment.endsIn(node.corners) || !segment.mayMeet(node.box))
     return;
   if (node.second != 0) {
-    findOverlapping(number + 1, box, found);
-    findOverlapping(node.second, box, found);
+    findMet(number + 1, segment, found);
+    findMet(node.second, segment, found);
     return;
   }
   for (std::uint32_t i = node.begin; i < node.end; ++i) {
     Eigen::AlignedBox3d own;
     for (const Eigen::Vector3d& corner : cornersOf(order_[i]))
       own.extend(corner);
-    if (own.intersects(box))
+    if (!segment.endsIn(triangles_[order_[i]]) && segment.mayMeet(own))
       found.push_back(order_[i]);
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The triangles of a mesh that are nearest to a place, or in a box.
+// The triangles of a mesh that are nearest to a place, or beside a segment.
 #pragma once
 
 #include <pcl_uvol/common/dataset.h>
@@ -27,7 +27,8 @@ PCL_UVOL_EXPORTS TrianglePoint
 nearestOfTriangle(const std::array<Eigen::Vector3d, 3>& corners,
                   const Eigen::Vector3d& place);
 
-/** \brief A tree of boxes around triangles. */
+/** \brief A tree of boxes around triangles; it knows the corners that all of a box
+ * share, since many triangles may meet in one. */
 class PCL_UVOL_EXPORTS TriangleTree {
 public:
   /** \brief What is nearest. */
@@ -46,11 +47,13 @@ public:
   Nearest
   find(const Eigen::Vector3d& place) const;
 
-  /** \brief The triangles whose boxes meet a box, in no order.
-   * \param found cleared first */
+  /** \brief The triangles whose boxes the segment between two vertices meets, but
+   * those that have one of these as a corner, in no order.
+   * \param found gets them behind what it holds */
   void
-  findOverlapping(const Eigen::AlignedBox3d& box,
-                  std::vector<std::uint32_t>& found) const;
+  findMet(std::uint32_t from,
+          std::uint32_t to,
+          std::vector<std::uint32_t>& found) const;
 
 private:
   /** Triangles from begin to end; the first child follows, unless it is a leaf. */
@@ -58,7 +61,13 @@ private:
     Eigen::AlignedBox3d box;
     std::uint32_t begin, end;
     std::uint32_t second = 0; ///< child; 0: a leaf
+    Triangle corners{};       ///< that all its triangles have; others are no_vertex
   };
+
+  class Segment;
+
+  Triangle
+  findCommonCorners(std::uint32_t begin, std::uint32_t end) const;
 
   std::uint32_t
   build(const std::vector<Eigen::Vector3d>& centers,
@@ -69,9 +78,9 @@ private:
   find(std::uint32_t node, const Eigen::Vector3d& place, Nearest& nearest) const;
 
   void
-  findOverlapping(std::uint32_t node,
-                  const Eigen::AlignedBox3d& box,
-                  std::vector<std::uint32_t>& found) const;
+  findMet(std::uint32_t node,
+          const Segment& segment,
+          std::vector<std::uint32_t>& found) const;
 
   std::array<Eigen::Vector3d, 3>
   cornersOf(std::uint32_t triangle) const;

@@ -161,6 +161,16 @@ TEST(SelfIntersections, AgreeWithPlacesOnBothSides)
   EXPECT_GT(crossing, 500);
 }
 
+std::size_t
+countAllPairs(const std::vector<Place>& places, const std::vector<Triangle>& triangles)
+{
+  std::size_t all = 0;
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      all += doIntersect(places, triangles[i], triangles[k]);
+  return all;
+}
+
 TEST(SelfIntersections, AreFoundInMeshes)
 {
   pcl_uvol::Report report;
@@ -178,11 +188,7 @@ TEST(SelfIntersections, AreFoundInMeshes)
   EXPECT_TRUE(std::is_sorted(pairs.begin(), pairs.end()));
   EXPECT_EQ(pairs,
             findSelfIntersections(spindle.places, spindle.triangles, {}, 1, report));
-  std::size_t all = 0;
-  for (std::size_t i = 0; i < spindle.triangles.size(); ++i)
-    for (std::size_t k = 0; k < i; ++k)
-      all += doIntersect(spindle.places, spindle.triangles[i], spindle.triangles[k]);
-  EXPECT_EQ(all, pairs.size());
+  EXPECT_EQ(countAllPairs(spindle.places, spindle.triangles), pairs.size());
   // Surfaces of several isovalues may do as they like.
   MeasuredShape boxes = makeBox({1, 1, 1});
   boxes.append(boxes);
@@ -197,7 +203,7 @@ TEST(SelfIntersections, AreFoundInMeshes)
 
 TEST(SelfIntersections, ManyTrianglesMayShareAVertex)
 {
-  constexpr std::uint32_t count = 3000;
+  constexpr std::uint32_t count = 30000;
   std::vector<Place> places = {{0, 0, 1}};
   std::vector<Triangle> triangles;
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -207,15 +213,71 @@ TEST(SelfIntersections, ManyTrianglesMayShareAVertex)
   }
   pcl_uvol::Report report;
   EXPECT_TRUE(findSelfIntersections(places, triangles, {}, 2, report).empty());
+  std::vector<Triangle> closed = triangles; // by a second vertex that all share
+  places.push_back({0, 0, -1});
+  for (const Triangle& triangle : triangles)
+    closed.push_back({count + 1, triangle[2], triangle[1]});
+  EXPECT_TRUE(findSelfIntersections(places, closed, {}, 2, report).empty());
   // A blade that stands in the cone cuts all triangles of a sector, and none twice.
   places.insert(places.end(), {{0.9, 0.0, 0.2}, {0.0, 0.9, 0.2}});
-  triangles.push_back({0, count + 1, count + 2});
+  triangles.push_back({0, count + 2, count + 3});
   const auto pairs = findSelfIntersections(places, triangles, {}, 2, report);
   std::size_t all = 0;
   for (std::uint32_t i = 0; i < count; ++i)
     all += doIntersect(places, triangles[i], triangles[count]);
   EXPECT_EQ(all, pairs.size());
   EXPECT_GT(all, 0u);
+}
+
+TEST(SelfIntersections, AreThoseOfAllPairs)
+{
+  // Few places on a small lattice: triangles share corners and edges, lie on one
+  // another, in one plane, or have no area.
+  std::mt19937_64 random(11);
+  for (const std::uint32_t count : {5u, 9u, 30u, 80u}) {
+    for (const double shift : {0.0, 1e6}) {
+      std::vector<Place> places;
+      for (std::uint32_t i = 0; i < count; ++i)
+        places.emplace_back(shift + static_cast<double>(random() % 4),
+                            static_cast<double>(random() % 5),
+                            0.1 * static_cast<double>(random() % 3));
+      std::vector<Triangle> triangles(150);
+      for (Triangle& triangle : triangles)
+        for (std::uint32_t& corner : triangle)
+          corner = static_cast<std::uint32_t>(random() % count);
+      pcl_uvol::Report report;
+      const auto pairs = findSelfIntersections(places, triangles, {}, 2, report);
+      EXPECT_EQ(countAllPairs(places, triangles), pairs.size());
+      for (const auto& [lower, higher] : pairs) {
+        EXPECT_LT(lower, higher);
+        EXPECT_TRUE(doIntersect(places, triangles[lower], triangles[higher]));
+      }
+      EXPECT_EQ(pairs.end(), std::adjacent_find(pairs.begin(), pairs.end()));
+    }
+  }
+}
+
+TEST(SelfIntersections, ManyTrianglesMayShareAnEdge)
+{
+  // Pages of a book in no order, and a few in the directions of others, but longer.
+  constexpr std::uint32_t count = 30000;
+  std::vector<Place> places = {{0, 0, 0}, {0, 0, 1}};
+  std::vector<Triangle> triangles;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const double angle = 2.0 * M_PI * (i * 7919 % count) / count;
+    places.emplace_back(std::cos(angle), std::sin(angle), 0.5);
+    triangles.push_back({0, 1, i + 2});
+  }
+  pcl_uvol::Report report;
+  EXPECT_TRUE(findSelfIntersections(places, triangles, {}, 2, report).empty());
+  for (const std::uint32_t page : {0u, 7000u, 29999u}) {
+    const Place tip = 2.0 * places[page + 2];
+    places.push_back(tip);
+    triangles.push_back({1, static_cast<std::uint32_t>(places.size()) - 1, 0});
+  }
+  using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+  EXPECT_EQ(Pairs({{0, count}, {7000, count + 1}, {29999, count + 2}}),
+            findSelfIntersections(places, triangles, {}, 2, report));
 }
 
 TEST(SelfIntersections, HaveABoundWhereAllLieOnOneAnother)
