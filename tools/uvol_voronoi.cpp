@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Discrete Voronoi diagrams of points as grids and pictures (thesis 2.1).
 #include "charts/picture_file.h"
+#include "common/printable.h"
 #include "gl/conic_sections.h"
 #include "io/grid_file.h"
 #include "render/voronoi_slices.h"
@@ -92,7 +93,8 @@ parseGrid(const std::string& text)
     if (number < 1 || number > GridShape::largest_side)
       throw UsageError("-grid is a number of cells from 1 to " +
                        std::to_string(GridShape::largest_side) +
-                       ", as in 128, or three, as in 256x256x475, not " + text + ".");
+                       ", as in 128, or three, as in 256x256x475, not " +
+                       pcl_uvol::quoteText(text) + ".");
     cells.push_back(static_cast<std::uint32_t>(number));
   }
   if ((cells.size() != 1 && cells.size() != 3) || text.back() == 'x')

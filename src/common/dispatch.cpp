@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/dispatch.h"
 
+#include "common/printable.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>
@@ -34,8 +35,8 @@ chooseLevel()
                                     std::pair{"avx512", SimdLevel::Avx512}})
     if (name == word)
       return std::min(level, levelOfMachine());
-  throw InvalidArgument("The environment variable PCL_UVOL_SIMD is '" + name +
-                        "': it can be baseline, avx2 or avx512.");
+  throw InvalidArgument("The environment variable PCL_UVOL_SIMD is " + quoteText(name) +
+                        ": it can be baseline, avx2 or avx512.");
 }
 
 } // namespace

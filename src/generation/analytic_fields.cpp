@@ -2,6 +2,7 @@
 // The formulas of the analytic fields.
 #include "generation/analytic_fields.h"
 
+#include "common/printable.h"
 #include "common/random.h"
 #include <pcl_uvol/common/exceptions.h>
 
@@ -166,8 +167,8 @@ findAnalyticField(const std::string& name)
       return field;
     names += (names.empty() ? "" : ", ") + std::string(field.name);
   }
-  throw InvalidArgument("There is no analytic field '" + name + "'; there are " +
-                        names + ".");
+  throw InvalidArgument("There is no analytic field " + quoteText(name) +
+                        "; there are " + names + ".");
 }
 
 bool

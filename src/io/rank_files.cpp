@@ -150,6 +150,31 @@ struct Layout {
     return message;
   }
 
+  /** \throws InvalidArgument if another piece has other fields */
+  void
+  requireFieldsOf(const Layout& other) const
+  {
+    const auto [own, its] =
+        std::mismatch(fields.begin(),
+                      fields.end(),
+                      other.fields.begin(),
+                      other.fields.end(),
+                      [](const auto& a, const auto& b) {
+                        return a.name == b.name && a.offset == b.offset &&
+                               a.datatype == b.datatype && a.count == b.count;
+                      });
+    if (own == fields.end() && its == other.fields.end())
+      return;
+    const auto describe = [](const auto& field, const auto& end) {
+      return field == end ? "none" : describeFields({*field});
+    };
+    throw InvalidArgument("The pieces '" + path + "' and '" + other.path +
+                          "' have different fields: where the one has " +
+                          describe(own, fields.end()) + ", the other has " +
+                          describe(its, other.fields.end()) +
+                          "; write all of them with the same arrays.");
+  }
+
   /** Take what another piece has.
    * \throws InvalidArgument for other fields */
   void
@@ -161,21 +186,7 @@ struct Layout {
       *this = other;
       return;
     }
-    const bool same = std::equal(fields.begin(),
-                                 fields.end(),
-                                 other.fields.begin(),
-                                 other.fields.end(),
-                                 [](const auto& a, const auto& b) {
-                                   return a.name == b.name && a.offset == b.offset &&
-                                          a.datatype == b.datatype &&
-                                          a.count == b.count;
-                                 });
-    if (!same)
-      throw InvalidArgument("The pieces '" + path + "' and '" + other.path +
-                            "' have different fields, the first " +
-                            describeFields(fields) + ", the second " +
-                            describeFields(other.fields) +
-                            ": write all of them with the same arrays.");
+    requireFieldsOf(other);
     double_coordinates |= other.double_coordinates;
     if (box != other.box)
       box = {};

@@ -228,7 +228,8 @@ TEST(RankFiles, RefuseWhatDoesNotFitTogether)
   setField(other, "label", std::vector<std::int32_t>(3));
   saveDataset(folder / "in_1.vtp", other);
   for (const std::size_t ranks : {1, 2, 5})
-    expectComplaint("have different fields, the first x (float32)",
+    expectComplaint("have different fields: where the one has none, the other has "
+                    "label (int32); write",
                     complaintOf({folder / "in_*.vtp"}, ranks));
   saveDataset(folder / "none.vtp", line(0, 0.0));
   expectComplaint("none.vtp has no points.", complaintOf({folder / "none.vtp"}, 2));

@@ -209,18 +209,20 @@ RandomLines::makeValue(const Option& option, const std::string& folder, Random& 
                             "\\\"a b\\\"",
                             "\x1b[0m"};
   const std::string& placeholder = option.placeholder;
-  if (option.name == "-size")
-    return pick({"16x16", "1x1", "0x0", "40x3", "8", "x"}, random);
-  if (placeholder == "n")
-    return pick(counts, random);
-  if (placeholder == "bytes")
-    return pick({"0", "1", "100M", "2G", "x"}, random);
   if (placeholder == "folder" || placeholder == "path")
     return folder;
   if (placeholder.compare(0, 4, "out.") == 0)
     return folder + "out_" + placeholder;
   if (placeholder == "file")
     return folder + "smooth.csv";
+  if (random.uniform() < 0.05)
+    return std::string(5000, 'q');
+  if (option.name == "-size")
+    return pick({"16x16", "1x1", "0x0", "40x3", "8", "x"}, random);
+  if (placeholder == "n")
+    return pick(counts, random);
+  if (placeholder == "bytes")
+    return pick({"0", "1", "100M", "2G", "x"}, random);
   if (placeholder == "name" || placeholder == "field" || placeholder == "expr" ||
       placeholder == "a,b,...")
     return pick(fields, random);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shared/figure_options.h"
 
+#include "common/printable.h"
+
 #include <algorithm>
 
 namespace uvol_tools {
@@ -53,7 +55,8 @@ FigureOptions::check(const Options& options, const Paper& paper)
     std::string all;
     for (const std::string& name : names)
       all += (all.empty() ? "" : ", ") + name;
-    throw UsageError("-views has names of sides, " + all + ", not '" + *unknown + "'.");
+    throw UsageError("-views has names of sides, " + all + ", not " +
+                     pcl_uvol::quoteText(*unknown) + ".");
   }
   if (!figure_.fits(paper.width, paper.height))
     throw UsageError("The picture is too small for -views and -title: a larger -size "

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shared/number_list.h"
 
+#include "common/printable.h"
 #include "shared/options.h"
 
 #include <algorithm>
@@ -32,8 +33,8 @@ throwNoRange(const std::string& option, const std::string& text, const char* rea
 {
   throw UsageError("-" + option +
                    " takes ranges as 0.1:0.1:0.6 (first:step:last) or "
-                   "0.01:1:5log (first:last:number), and '" +
-                   text + "' " + reason + ".");
+                   "0.01:1:5log (first:last:number), and " +
+                   pcl_uvol::quoteText(text) + " " + reason + ".");
 }
 
 /** low, high and the number of values, whose ratios are equal. */
@@ -113,7 +114,8 @@ parseNumber(const std::string& option, const std::string& text)
 {
   double value = 0.0;
   if (!parseWhole(text, value) || !std::isfinite(value))
-    throw UsageError("-" + option + " takes numbers, and '" + text + "' is none.");
+    throw UsageError("-" + option + " takes numbers, and " + pcl_uvol::quoteText(text) +
+                     " is none.");
   return value;
 }
 
@@ -130,8 +132,8 @@ parseNumbers(const std::string& option, const std::string& value, std::size_t co
       numbers.push_back(parseNumber(option, part));
   if (count != 0 && numbers.size() != count)
     throw UsageError("-" + option + " takes " + std::to_string(count) +
-                     " numbers joined by commas, and '" + value + "' has " +
-                     std::to_string(numbers.size()) + ".");
+                     " numbers joined by commas, and " + pcl_uvol::quoteText(value) +
+                     " has " + std::to_string(numbers.size()) + ".");
   return numbers;
 }
 
@@ -151,7 +153,7 @@ parseAutomatic(const std::string& option,
     if (std::isfinite(high))
       range << " to " << high;
     throw UsageError("-" + option + " takes auto or a number " + range.str() +
-                     ", and '" + value + "' is neither.");
+                     ", and " + pcl_uvol::quoteText(value) + " is neither.");
   }
   return number;
 }
@@ -170,8 +172,8 @@ parseBytes(const std::string& option, const std::string& text)
   const double bytes = digits.empty() ? 0.0 : parseNumber(option, digits) * factor;
   if (!(bytes >= 1.0 && bytes < 1e18))
     throw UsageError("-" + option +
-                     " takes a number of bytes, as in 1500M or 2G, and '" + text +
-                     "' is none.");
+                     " takes a number of bytes, as in 1500M or 2G, and " +
+                     pcl_uvol::quoteText(text) + " is none.");
   return static_cast<std::uint64_t>(bytes);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What -h prints: options below the headings of their groups, in lines of a screen.
 #include "common/numbers.h"
+#include "common/printable.h"
 #include "shared/options.h"
 
 #include <algorithm>
@@ -132,8 +133,8 @@ Options::printHelp(const std::string& topic) const
       return;
     }
   if (!wanted.empty() && wanted != "all")
-    throw UsageError("-h has no heading '" + topic + "'; it takes all" +
-                     listHeadings() + ".");
+    throw UsageError("-h has no heading " + pcl_uvol::quoteText(topic) +
+                     "; it takes all" + listHeadings() + ".");
   const std::string all = writeHelp(true);
   const bool is_short = std::count(all.begin(), all.end(), '\n') <= longest_help;
   std::cout << (wanted == "all" || is_short ? all : writeHelp(false));

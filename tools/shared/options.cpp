@@ -2,6 +2,7 @@
 // Parsing of one-dash options against a tool's table.
 #include "shared/options.h"
 
+#include "common/printable.h"
 #include "common/similar_words.h"
 #include "io/unpacked_file.h"
 #include "shared/number_list.h"
@@ -79,7 +80,8 @@ parseWholeIn(const std::string& name,
   std::uint64_t number = 0;
   if (!parseWhole(value, number) || number < minimum || number > maximum)
     throw UsageError("-" + name + " is a whole number from " + std::to_string(minimum) +
-                     " to " + std::to_string(maximum) + ", not '" + value + "'.");
+                     " to " + std::to_string(maximum) + ", not " +
+                     pcl_uvol::quoteText(value) + ".");
   return number;
 }
 
@@ -217,8 +219,8 @@ Options::choice(const std::string& name,
 {
   const auto check = [name, shown, allowed, assign](const std::string& value) {
     if (std::find(allowed.begin(), allowed.end(), value) == allowed.end())
-      throw UsageError("-" + name + " is " + joined(shown, " or ") + ", not '" + value +
-                       "'.");
+      throw UsageError("-" + name + " is " + joined(shown, " or ") + ", not " +
+                       pcl_uvol::quoteText(value) + ".");
     assign(value);
   };
   return add({name,
@@ -335,7 +337,7 @@ Options::find(const std::string& argument)
   for (const Option& option : options_)
     names.push_back(option.name);
   const std::string nearest = pcl_uvol::findSimilar(names, name);
-  throw UsageError("There is no option " + argument +
+  throw UsageError("There is no option " + pcl_uvol::shortenText(argument) +
                    (nearest.empty() ? "." : "; did you mean -" + nearest + "?"));
 }
 
@@ -380,7 +382,8 @@ Options::parse(int argc, const char* const* argv)
     if (isOption(argument))
       assignOption(arguments, i);
     else if (files.size() == positionals_.size() && !positionals_[0].targets)
-      throw UsageError("The argument '" + argument + "' is one too many.");
+      throw UsageError("The argument " + pcl_uvol::quoteText(argument) +
+                       " is one too many.");
     else
       files.push_back(argument);
   }

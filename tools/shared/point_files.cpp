@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shared/point_files.h"
 
+#include "common/printable.h"
 #include "io/label_comments.h"
 #include <pcl_uvol/common/exceptions.h>
 
@@ -29,7 +30,7 @@ parseColumns(const std::string& columns)
     throw UsageError(
         "-xyz takes three columns, as in -xyz lon,lat,depth or -xyz 0,1,2, "
         "not " +
-        columns + ".");
+        pcl_uvol::quoteText(columns) + ".");
   return parsed;
 }
 

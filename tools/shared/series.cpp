@@ -2,6 +2,7 @@
 #include "shared/series.h"
 
 #include "common/numbers.h"
+#include "common/printable.h"
 #include "io/folder.h"
 #include "io/memory_need.h"
 #include "io/xml_text.h"
@@ -305,7 +306,8 @@ NumberedName::NumberedName(const std::string& text)
 {
   const std::optional<NumberPlace> place = findPlaceOfNumber(text);
   if (!place)
-    throw UsageError("'" + text + "' has no place for a number, as in snap_{:04d}.");
+    throw UsageError(pcl_uvol::quoteText(text) +
+                     " has no place for a number, as in snap_{:04d}.");
   before_ = text.substr(0, place->begin);
   after_ = text.substr(place->end);
   fill_ = place->fill;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shared/size_option.h"
 
+#include "common/printable.h"
 #include <pcl_uvol/render/renderer.h>
 
 #include <algorithm>
@@ -126,7 +127,7 @@ SizeOption::parse()
   const std::string lengths =
       takes_lengths_ ? ", or in mm, cm or in, as in 85x60mm" : "";
   throw UsageError("-" + name_ + " is WxH in pixels, as in 1024x768" + lengths +
-                   ", not '" + text_ + "'.");
+                   ", not " + pcl_uvol::quoteText(text_) + ".");
 }
 
 void

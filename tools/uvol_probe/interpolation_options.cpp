@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "uvol_probe/interpolation_options.h"
 
+#include "common/printable.h"
 #include "common/records.h"
 #include "common/scalar_field.h"
 #include "common/scalar_names.h"
@@ -150,8 +151,8 @@ InterpolationOptions::parseVariogram()
   pcl_uvol::KrigingParameters& kriging = parameters_.kriging;
   if (!fromWord(variogram_.substr(0, comma), kriging.variogram))
     throw UsageError("-variogram starts with spherical, exponential, gaussian, "
-                     "matern32 or matern52, not '" +
-                     variogram_ + "'.");
+                     "matern32 or matern52, not " +
+                     pcl_uvol::quoteText(variogram_) + ".");
   if (comma == variogram_.size())
     return;
   const auto numbers = parseNumbers("variogram", variogram_.substr(comma + 1), 3);

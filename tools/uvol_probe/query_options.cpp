@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "uvol_probe/query_options.h"
 
+#include "common/printable.h"
+
 #include <algorithm>
 
 namespace uvol_tools {
@@ -25,8 +27,8 @@ parseCounts(const std::string& option, const std::string& text, const char* exam
     const std::size_t number = is_number ? std::stoul(word) : 0;
     if (number < 1 || number > largest_side)
       throw UsageError("-" + option + " takes numbers from 1 to " +
-                       std::to_string(largest_side) + ", as in " + example + ", not '" +
-                       text + "'.");
+                       std::to_string(largest_side) + ", as in " + example + ", not " +
+                       pcl_uvol::quoteText(text) + ".");
     counts.push_back(number);
     start = end + 1;
   }
@@ -109,8 +111,8 @@ QueryOptions::parsePlane()
     return;
   }
   if (plane_text_.find('=') != std::string::npos)
-    throw UsageError("-plane is x=, y= or z= and a number, or x,y,z,nx,ny,nz, not '" +
-                     plane_text_ + "'.");
+    throw UsageError("-plane is x=, y= or z= and a number, or x,y,z,nx,ny,nz, not " +
+                     pcl_uvol::quoteText(plane_text_) + ".");
   const auto numbers = parseNumbers("plane", plane_text_, 6);
   plane_.point = placeOf(numbers, 0);
   plane_.normal = placeOf(numbers, 3);

@@ -2,6 +2,7 @@
 #include "viewer/typed_number.h"
 
 #include "common/numbers.h"
+#include "common/printable.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <cstring>
@@ -35,7 +36,7 @@ TypedNumber::press(char key)
   is_begun_ = false;
   double number = 0.0;
   if (!pcl_uvol::parseNumber(text_, number))
-    throw pcl_uvol::InvalidArgument("'" + text_ + "' is no number.");
+    throw pcl_uvol::InvalidArgument(pcl_uvol::quoteText(text_) + " is no number.");
   return number;
 }
 
