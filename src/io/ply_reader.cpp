@@ -6,6 +6,7 @@
 #include "common/scalar_field.h"
 #include "io/formats.h"
 #include "io/label_comments.h"
+#include "io/ply_header.h"
 #include "io/ply_types.h"
 #include "io/record_source.h"
 
@@ -19,160 +20,8 @@ namespace {
 using Type = pcl::PCLPointField;
 using Words = std::vector<std::string_view>;
 
-struct Property {
-  std::string name;
-  std::uint8_t datatype = 0;
-  std::uint8_t length_type = 0; ///< of the number in front of a list, 0 for a scalar
-};
-
-struct Element {
-  std::string name;
-  std::uint64_t count = 0;
-  std::vector<Property> properties;
-
-  bool
-  hasLists() const
-  {
-    return std::any_of(properties.begin(), properties.end(), [](const Property& p) {
-      return p.length_type != 0;
-    });
-  }
-
-  /** Bytes of the scalars. */
-  std::uint64_t
-  bytes() const
-  {
-    std::uint64_t sum = 0;
-    for (const auto& property : properties)
-      if (property.length_type == 0)
-        sum += datatypeSize(property.datatype);
-    return sum;
-  }
-};
-
-enum class Format { None, Ascii, LittleEndian, BigEndian };
-
-struct Header {
-  Format format = Format::None;
-  std::vector<Element> elements;
-  LabelNames labels;
-};
-
-/** Parses the lines of a header, up to end_header. */
-class HeaderParser {
-public:
-  HeaderParser(const std::string& path, FileCursor& cursor)
-      : path_(path)
-      , cursor_(cursor)
-  {
-  }
-
-  Header
-  parse();
-
-private:
-  void
-  takeLine(std::string_view line, const Words& words);
-  Format
-  formatIn(const Words& words) const;
-  void
-  takeProperty(const Words& words);
-
-  [[noreturn]] void
-  throwInLine(const std::string& reason) const
-  {
-    throwUnreadable(path_, cursor_.tell().line, reason);
-  }
-
-  const std::string& path_;
-  FileCursor& cursor_;
-  Header header_;
-};
-
-void
-HeaderParser::takeProperty(const Words& words)
-{
-  if (header_.elements.empty())
-    throwInLine("a property comes before any element");
-  Property property;
-  std::size_t type = 1;
-  if (words.size() == 5 && words[1] == "list") {
-    property.length_type = plyDatatype(words[2]);
-    type = 3;
-    if (property.length_type == 0 || property.length_type == Type::FLOAT32 ||
-        property.length_type == Type::FLOAT64)
-      throwInLine(quoteText(words[2]) + " is no type for a list's length");
-  }
-  if (words.size() != type + 2)
-    throwInLine("a property needs a type and a name");
-  property.datatype = plyDatatype(words[type]);
-  property.name = words[type + 1];
-  if (property.datatype == 0)
-    throwInLine("the property " + quoteText(property.name) + " has the type " +
-                quoteText(words[type]) + ", which PLY does not have");
-  header_.elements.back().properties.push_back(property);
-}
-
-Format
-HeaderParser::formatIn(const Words& words) const
-{
-  if (words.size() == 3 && words[1] == "ascii")
-    return Format::Ascii;
-  if (words.size() == 3 && words[1] == "binary_little_endian")
-    return Format::LittleEndian;
-  if (words.size() == 3 && words[1] == "binary_big_endian")
-    return Format::BigEndian;
-  throwInLine("the format is none of ascii, binary_little_endian and "
-              "binary_big_endian");
-}
-
-void
-HeaderParser::takeLine(std::string_view line, const Words& words)
-{
-  if (words[0] == "comment" && words.size() > 1)
-    takeLabelComment(
-        line.substr(static_cast<std::size_t>(words[1].data() - line.data())),
-        header_.labels);
-  if (words[0] == "comment" || words[0] == "obj_info")
-    return;
-  if (words[0] == "format")
-    header_.format = formatIn(words);
-  else if (words[0] == "element") {
-    Element element;
-    if (words.size() != 3 || !parseCount(words[2], element.count))
-      throwInLine("an element needs a name and a count");
-    element.name = words[1];
-    header_.elements.push_back(element);
-  }
-  else if (words[0] == "property")
-    takeProperty(words);
-  else
-    throwInLine("this is no line of a PLY header");
-}
-
-Header
-HeaderParser::parse()
-{
-  std::string_view line;
-  if (!cursor_.nextLine(line) || line != "ply")
-    throwUnreadable(path_, "it is no PLY file: its first line is not 'ply'");
-  Words words;
-  while (cursor_.nextLine(line)) {
-    splitWords(line, words);
-    if (words.empty())
-      continue;
-    if (words[0] == "end_header") {
-      if (header_.format == Format::None)
-        throwUnreadable(path_, "its header has no format line");
-      return std::move(header_);
-    }
-    takeLine(line, words);
-  }
-  throwUnreadable(path_, "its header has no end_header line");
-}
-
 [[noreturn]] void
-throwTruncated(const std::string& path, const Element& element)
+throwTruncated(const std::string& path, const PlyElement& element)
 {
   throwUnreadable(path,
                   "it is truncated or damaged: its header promises " +
@@ -183,14 +32,14 @@ throwTruncated(const std::string& path, const Element& element)
 /** Before any memory is taken: do that many bytes follow at all? */
 void
 checkCount(const std::string& path,
-           const Element& element,
-           Format format,
+           const PlyElement& element,
+           PlyFormat format,
            std::uint64_t left)
 {
   std::uint64_t least = element.bytes();
   for (const auto& property : element.properties)
     least += property.length_type ? datatypeSize(property.length_type) : 0;
-  if (format == Format::Ascii) { // a digit and a blank each, but for the last
+  if (format == PlyFormat::Ascii) { // a digit and a blank each, but for the last
     least = 2 * element.properties.size();
     ++left;
   }
@@ -200,7 +49,7 @@ checkCount(const std::string& path,
 
 /** Lengths of lists are whole numbers of any type, see the header. */
 void
-checkLength(const std::string& path, const Property& property, double length)
+checkLength(const std::string& path, const PlyProperty& property, double length)
 {
   if (length < 0.0)
     throwUnreadable(path,
@@ -212,7 +61,7 @@ class BinaryElement {
 public:
   BinaryElement(const std::string& path,
                 FileCursor& cursor,
-                const Element& element,
+                const PlyElement& element,
                 bool swapped)
       : path_(path)
       , cursor_(cursor)
@@ -232,12 +81,12 @@ public:
   }
 
   void
-  skip(const Property& property);
+  skip(const PlyProperty& property);
 
 private:
   const std::string& path_;
   FileCursor& cursor_;
-  const Element& element_;
+  const PlyElement& element_;
   const bool swapped_;
 };
 
@@ -254,7 +103,7 @@ BinaryElement::take(std::uint8_t datatype, std::uint8_t* to)
 }
 
 void
-BinaryElement::skip(const Property& property)
+BinaryElement::skip(const PlyProperty& property)
 {
   double length = 1.0;
   if (property.length_type) {
@@ -272,7 +121,7 @@ public:
   ListSource(const std::string& path,
              std::unique_ptr<FileCursor> cursor,
              RecordInfo info,
-             const Element& vertex,
+             const PlyElement& vertex,
              bool swapped)
       : SequentialSource(path, std::move(cursor), std::move(info))
       , vertex_(vertex)
@@ -300,7 +149,7 @@ private:
       binary_.skip(property);
   }
 
-  const Element vertex_;
+  const PlyElement vertex_;
   BinaryElement binary_;
 };
 
@@ -310,7 +159,7 @@ public:
   AsciiSource(const std::string& path,
               std::unique_ptr<FileCursor> cursor,
               RecordInfo info,
-              const Element& vertex)
+              const PlyElement& vertex)
       : SequentialSource(path, std::move(cursor), std::move(info))
       , vertex_(vertex)
   {
@@ -327,7 +176,7 @@ private:
     throwUnreadable(path_, cursor_->tell().line, reason);
   }
 
-  const Element vertex_;
+  const PlyElement vertex_;
   Words words_;
 };
 
@@ -368,18 +217,18 @@ AsciiSource::readRecord(std::uint8_t* record)
 void
 skipElement(const std::string& path,
             FileCursor& cursor,
-            const Element& element,
-            Format format)
+            const PlyElement& element,
+            PlyFormat format)
 {
   checkCount(path, element, format, cursor.left());
   if (element.properties.empty())
     return;
   Words words;
-  BinaryElement binary(path, cursor, element, format == Format::BigEndian);
-  if (format != Format::Ascii && !element.hasLists())
+  BinaryElement binary(path, cursor, element, format == PlyFormat::BigEndian);
+  if (format != PlyFormat::Ascii && !element.hasLists())
     return binary.skip(element.bytes() * element.count);
   for (std::uint64_t i = 0; i < element.count; ++i) {
-    if (format != Format::Ascii)
+    if (format != PlyFormat::Ascii)
       for (const auto& property : element.properties)
         binary.skip(property);
     else if (!cursor.nextWords(words))
@@ -393,15 +242,15 @@ public:
   /** \param vertices how many there are */
   FaceReader(const std::string& path,
              FileCursor& cursor,
-             const Element& face,
-             Format format,
+             const PlyElement& face,
+             PlyFormat format,
              std::uint64_t vertices)
       : path_(path)
       , cursor_(cursor)
       , face_(face)
-      , is_text_(format == Format::Ascii)
+      , is_text_(format == PlyFormat::Ascii)
       , vertices_(static_cast<double>(vertices))
-      , binary_(path, cursor, face, format == Format::BigEndian)
+      , binary_(path, cursor, face, format == PlyFormat::BigEndian)
   {
   }
 
@@ -412,7 +261,7 @@ public:
       if (is_text_ && !cursor_.nextWords(words_))
         throwTruncated(path_, face_);
       word_ = 0;
-      for (const Property& property : face_.properties)
+      for (const PlyProperty& property : face_.properties)
         takeProperty(property);
     }
     return std::move(triangles_);
@@ -420,13 +269,13 @@ public:
 
 private:
   void
-  takeProperty(const Property& property);
+  takeProperty(const PlyProperty& property);
   double
   takeNumber(std::uint8_t datatype);
 
   const std::string& path_;
   FileCursor& cursor_;
-  const Element& face_;
+  const PlyElement& face_;
   const bool is_text_;
   const double vertices_;
   BinaryElement binary_;
@@ -451,7 +300,7 @@ FaceReader::takeNumber(std::uint8_t datatype)
 }
 
 void
-FaceReader::takeProperty(const Property& property)
+FaceReader::takeProperty(const PlyProperty& property)
 {
   const double length = property.length_type ? takeNumber(property.length_type) : 1.0;
   const bool corners = property.length_type && (property.name == "vertex_indices" ||
@@ -477,15 +326,15 @@ FaceReader::takeProperty(const Property& property)
 /** Reads the header and goes in front of the first element of that name.
  * \param behind_vertices if they have been read already
  * \return null if there is none */
-const Element*
+const PlyElement*
 findElement(const std::string& path,
             FileCursor& cursor,
             const std::string& name,
-            Header& header,
+            PlyHeader& header,
             const FileCursor::Place* behind_vertices = nullptr)
 {
-  header = HeaderParser(path, cursor).parse();
-  for (const Element& element : header.elements) {
+  header = readPlyHeader(path, cursor);
+  for (const PlyElement& element : header.elements) {
     if (element.name == name) {
       checkCount(path, element, header.format, cursor.left());
       return &element;
@@ -499,7 +348,7 @@ findElement(const std::string& path,
 }
 
 RecordInfo
-makeInfo(const std::string& path, const Element& vertex, LabelNames&& labels)
+makeInfo(const std::string& path, const PlyElement& vertex, LabelNames&& labels)
 {
   RecordInfo info;
   info.count = vertex.count;
@@ -522,13 +371,13 @@ std::unique_ptr<RecordSource>
 openPly(const std::string& path)
 {
   auto cursor = std::make_unique<FileCursor>(path);
-  Header header;
-  const Element* const vertex = findElement(path, *cursor, "vertex", header);
+  PlyHeader header;
+  const PlyElement* const vertex = findElement(path, *cursor, "vertex", header);
   if (!vertex)
     throwUnreadable(path, "it has no element 'vertex'");
   RecordInfo info = makeInfo(path, *vertex, std::move(header.labels));
-  const bool swapped = header.format == Format::BigEndian;
-  if (header.format == Format::Ascii)
+  const bool swapped = header.format == PlyFormat::BigEndian;
+  if (header.format == PlyFormat::Ascii)
     return std::make_unique<AsciiSource>(
         path, std::move(cursor), std::move(info), *vertex);
   if (vertex->hasLists())
@@ -544,8 +393,8 @@ readPlyMesh(const std::string& path)
   FileCursor::Place behind_vertices;
   LoadedMesh mesh{readWhole(openPly(path), nullptr, &behind_vertices), {}};
   FileCursor cursor(path);
-  Header header;
-  const Element* const face =
+  PlyHeader header;
+  const PlyElement* const face =
       findElement(path, cursor, "face", header, &behind_vertices);
   if (face)
     mesh.triangles =

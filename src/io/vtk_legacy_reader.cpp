@@ -5,6 +5,7 @@
 #include "common/printable.h"
 #include "common/scalar_field.h"
 #include "io/vtk_arrays.h"
+#include "io/vtk_legacy_body.h"
 #include "io/vtk_readers.h"
 
 #include <vtkCellData.h>
@@ -30,31 +31,6 @@ namespace {
 
 using Words = std::vector<std::string_view>;
 using Array = vtkSmartPointer<vtkDataArray>;
-
-const VtkType byte_type = *findLegacyType("unsigned_char");
-const VtkType int_type = *findLegacyType("int");
-
-/** Names are written with %20 for a blank and the like. */
-std::string
-decodedName(std::string_view text)
-{
-  const auto digit = [](char c) {
-    return c >= '0' && c <= '9'   ? c - '0'
-           : c >= 'a' && c <= 'f' ? c - 'a' + 10
-           : c >= 'A' && c <= 'F' ? c - 'A' + 10
-                                  : -1;
-  };
-  std::string name;
-  for (std::size_t at = 0; at < text.size(); ++at)
-    if (text[at] == '%' && at + 2 < text.size() && digit(text[at + 1]) >= 0 &&
-        digit(text[at + 2]) >= 0) {
-      name += static_cast<char>(16 * digit(text[at + 1]) + digit(text[at + 2]));
-      at += 2;
-    }
-    else
-      name += text[at];
-  return name;
-}
 
 /** The four lines in front of the data. */
 struct Header {
@@ -90,6 +66,8 @@ public:
   explicit LegacyReader(const std::string& path)
       : path_(path)
       , cursor_(path)
+      , header_(takeHeader(path, cursor_))
+      , body_(path_, cursor_, header_.binary)
   {
   }
 
@@ -115,17 +93,6 @@ private:
   takeColors();
   void
   takeField();
-  void
-  skipMetadata();
-  void
-  skipTexts(std::uint64_t count);
-  Array
-  readArray(std::string_view type,
-            const std::string& name,
-            std::uint64_t components,
-            std::uint64_t tuples);
-  void
-  skipNumbers(const VtkType& type, std::uint64_t count);
   void
   keep(const Array& array);
   void
@@ -158,6 +125,7 @@ private:
   const std::string& path_;
   FileCursor cursor_;
   Header header_;
+  LegacyBody body_;
   std::vector<std::string> words_; ///< of the line; kept while the cursor goes on
   Data data_ = Data::None;
   std::uint64_t points_ = 0, cells_ = 0;
@@ -178,107 +146,6 @@ LegacyReader::count(std::size_t i) const
   if (!parseCount(word(i), value))
     fail(quoteText(word(i)) + " is no count");
   return value;
-}
-
-void
-LegacyReader::skipNumbers(const VtkType& type, std::uint64_t count)
-{
-  const std::uint64_t size = datatypeSize(type.datatype);
-  if (header_.binary) {
-    if (count > cursor_.left() / size)
-      fail("it is truncated or damaged: " + std::to_string(count) +
-           " numbers are promised, but only " + std::to_string(cursor_.left()) +
-           " bytes follow");
-    cursor_.skip(size * count);
-    return;
-  }
-  std::string_view ignored;
-  for (std::uint64_t i = 0; i < count; ++i)
-    if (!cursor_.nextWord(ignored))
-      fail("it is truncated: numbers are missing at its end");
-}
-
-Array
-LegacyReader::readArray(std::string_view type_name,
-                        const std::string& name,
-                        std::uint64_t components,
-                        std::uint64_t tuples)
-{
-  const bool bits = type_name == "bit";
-  const VtkType* type = bits ? &byte_type : findLegacyType(type_name);
-  if (!type)
-    fail("the array " + quoteText(name) + " has the type " + quoteText(type_name) +
-         ", which is not read");
-  const std::uint64_t size = header_.binary ? datatypeSize(type->datatype) : 2;
-  checkPromise(path_,
-               name,
-               components,
-               tuples,
-               size,
-               (cursor_.left() + 1) * (bits && header_.binary ? 8 : 1));
-  Array array = makeArray(*type, name, components, tuples);
-  const std::uint64_t numbers = components * tuples;
-  std::uint8_t* const bytes = bytesOf(*array);
-  if (!header_.binary)
-    readTexts(path_,
-              cursor_,
-              std::numeric_limits<std::uint64_t>::max(),
-              type->datatype,
-              numbers,
-              bytes);
-  else if (bits) {
-    const auto packed_bytes = static_cast<std::size_t>((numbers + 7) / 8);
-    const char* const packed = cursor_.take(packed_bytes);
-    if (!packed)
-      fail("it is truncated: bits are missing at its end");
-    for (std::uint64_t i = 0; i < numbers; ++i)
-      bytes[i] = static_cast<std::uint8_t>(packed[i / 8] >> (7 - i % 8) & 1);
-  }
-  else {
-    if (numbers > cursor_.left() / size)
-      fail("it is truncated: numbers are missing at its end");
-    cursor_.getFile().read(cursor_.tell().offset, bytes, numbers * size);
-    cursor_.skip(numbers * size);
-    swapBytes(bytes, size, numbers); // the files are big-endian
-  }
-  if (type_name == "vtkidtype") { // written as int
-    Array ids = makeArray(*findLegacyType("vtktypeint64"), name, components, tuples);
-    ids->DeepCopy(array);
-    return ids;
-  }
-  return array;
-}
-
-/** Texts have a line each, or their length in front. */
-void
-LegacyReader::skipTexts(std::uint64_t count)
-{
-  std::string_view ignored;
-  for (std::uint64_t i = 0; i < count; ++i) {
-    if (!header_.binary) {
-      if (!cursor_.nextLine(ignored))
-        fail("it is truncated: texts are missing at its end");
-      continue;
-    }
-    // The two highest bits tell how many bytes the length has: 8, 4, 2, 1.
-    const char* at = cursor_.take(1);
-    std::uint64_t length = at ? static_cast<unsigned char>(*at) & 0x3f : 0;
-    const int more = at ? (8 >> (static_cast<unsigned char>(*at) >> 6)) - 1 : 0;
-    for (int byte = 0; byte < more && at; ++byte)
-      if ((at = cursor_.take(1)) != nullptr)
-        length = length << 8 | static_cast<unsigned char>(*at);
-    if (!at || !cursor_.skip(length))
-      fail("it is truncated: texts are missing at its end");
-  }
-}
-
-/** Lines up to an empty one. */
-void
-LegacyReader::skipMetadata()
-{
-  std::string_view line;
-  while (cursor_.nextLine(line) && !trimmed(line).empty())
-    continue;
 }
 
 void
@@ -324,12 +191,12 @@ LegacyReader::takeGeometry(const std::string& key)
       fail("there are " + std::to_string(points) + " points for a grid of " +
            std::to_string(points_));
     points_ = points;
-    coordinates_ = readArray(lowerCase(word(2)), "Points", 3, points);
+    coordinates_ = body_.readArray(lowerCase(word(2)), "Points", 3, points);
   }
   else if (key.size() == 13 && key.substr(1) == "_coordinates" && key[0] >= 'x' &&
            key[0] <= 'z') {
     Array& axis = axes_[static_cast<std::size_t>(key[0] - 'x')];
-    axis = readArray(lowerCase(word(2)), key, 1, count(1));
+    axis = body_.readArray(lowerCase(word(2)), key, 1, count(1));
   }
   else
     return false;
@@ -341,7 +208,7 @@ bool
 LegacyReader::takeCells(const std::string& key)
 {
   if (key == "cell_types") {
-    skipNumbers(int_type, count(1));
+    body_.skipNumbers(*findLegacyType("int"), count(1));
     return true;
   }
   if (key != "cells" && key != "vertices" && key != "lines" && key != "polygons" &&
@@ -353,7 +220,7 @@ LegacyReader::takeCells(const std::string& key)
   const bool lists = cursor_.nextWord(first) && lowerCase(first) == "offsets";
   cursor_.seek(place);
   if (!lists) { // all in one list, as before version 5
-    skipNumbers(int_type, sizes[1]);
+    body_.skipNumbers(*findLegacyType("int"), sizes[1]);
     return true;
   }
   for (const std::uint64_t size : sizes) {
@@ -362,7 +229,7 @@ LegacyReader::takeCells(const std::string& key)
     const VtkType* const type = findLegacyType(has_type ? lowerCase(words[1]) : "");
     if (!type)
       fail("OFFSETS or CONNECTIVITY of the cells are missing");
-    skipNumbers(*type, size);
+    body_.skipNumbers(*type, size);
   }
   return true;
 }
@@ -370,13 +237,13 @@ LegacyReader::takeCells(const std::string& key)
 void
 LegacyReader::takeScalars()
 {
-  const std::string name = decodedName(word(1)), type = lowerCase(word(2));
+  const std::string name = decodeLegacyName(word(1)), type = lowerCase(word(2));
   const std::uint64_t components = words_.size() > 3 ? count(3) : 1;
   Words words;
   const auto place = cursor_.tell();
   if (!cursor_.nextWords(words) || lowerCase(words[0]) != "lookup_table")
     cursor_.seek(place);
-  const Array array = readArray(type, name, components, tuples());
+  const Array array = body_.readArray(type, name, components, tuples());
   keep(array);
   if (data_ == Data::Points && !scalars_)
     scalars_ = array;
@@ -386,14 +253,14 @@ LegacyReader::takeScalars()
 void
 LegacyReader::takeColors()
 {
-  const std::string name = decodedName(word(1));
+  const std::string name = decodeLegacyName(word(1));
   const std::uint64_t components = count(2);
   Array array;
-  if (header_.binary)
-    array = readArray("unsigned_char", name, components, tuples());
+  if (body_.isBinary())
+    array = body_.readArray("unsigned_char", name, components, tuples());
   else {
-    const Array values = readArray("float", name, components, tuples());
-    array = makeArray(byte_type, name, components, tuples());
+    const Array values = body_.readArray("float", name, components, tuples());
+    array = makeArray(*findLegacyType("unsigned_char"), name, components, tuples());
     for (vtkIdType i = 0; i < values->GetNumberOfValues(); ++i) {
       const double value = values->GetVariantValue(i).ToDouble();
       bytesOf(*array)[i] =
@@ -415,22 +282,22 @@ LegacyReader::takeField()
     if (!cursor_.nextWords(words))
       fail("it is truncated: arrays of a FIELD are missing");
     if (lowerCase(words[0]) == "metadata") {
-      skipMetadata();
+      body_.skipMetadata();
       --i;
       continue;
     }
     words_.assign(words.begin(), words.end());
-    const std::string name = decodedName(word(0)), type = lowerCase(word(3));
+    const std::string name = decodeLegacyName(word(0)), type = lowerCase(word(3));
     const std::uint64_t components = count(1), tuples = count(2);
     if (type == "string") {
       if (components > 0 && tuples > cursor_.left() / components)
         fail("it is truncated: texts are missing at its end");
-      skipTexts(components * tuples);
+      body_.skipTexts(components * tuples);
       if (data_ == Data::Points)
         notes_.push_back(describeTexts(name));
     }
     else if (components > 0 && tuples > 0)
-      keep(readArray(type, name, components, tuples));
+      keep(body_.readArray(type, name, components, tuples));
   }
 }
 
@@ -454,8 +321,8 @@ LegacyReader::takeAttribute(const std::string& key)
                                                                   {"edge_flags", 1}};
   for (const auto& [kind, components] : kinds)
     if (key == kind) {
-      const Array array =
-          readArray(lowerCase(word(2)), decodedName(word(1)), components, tuples());
+      const Array array = body_.readArray(
+          lowerCase(word(2)), decodeLegacyName(word(1)), components, tuples());
       keep(array);
       if (key == "normals" && data_ == Data::Points && !normals_)
         normals_ = array;
@@ -466,12 +333,13 @@ LegacyReader::takeAttribute(const std::string& key)
   else if (key == "color_scalars")
     takeColors();
   else if (key == "texture_coordinates")
-    keep(readArray(lowerCase(word(3)), decodedName(word(1)), count(2), tuples()));
+    keep(body_.readArray(
+        lowerCase(word(3)), decodeLegacyName(word(1)), count(2), tuples()));
   else if (key == "lookup_table") {
     const std::uint64_t rows = count(2);
     if (rows > cursor_.left())
       fail("it is truncated: a table of colours is missing");
-    skipNumbers(byte_type, 4 * rows);
+    body_.skipNumbers(*findLegacyType("unsigned_char"), 4 * rows);
   }
   else
     return false;
@@ -530,7 +398,6 @@ LegacyReader::makeGeometry() const
 void
 LegacyReader::scan()
 {
-  header_ = takeHeader(path_, cursor_);
   constexpr std::string_view kinds[] = {"structured_points",
                                         "structured_grid",
                                         "rectilinear_grid",
@@ -547,7 +414,7 @@ LegacyReader::scan()
     else if (key == "cell_data")
       takeData(Data::Cells);
     else if (key == "metadata")
-      skipMetadata();
+      body_.skipMetadata();
     else if (!takeGeometry(key) && !takeCells(key) && !takeAttribute(key))
       fail(quoteText(words_[0]) + " is no keyword of its data");
   }

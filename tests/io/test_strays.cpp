@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Results do not depend on a few points that lie far from the others.
+#include "io/point_stream.h"
+#include "io/unit_samples.h"
+#include "pipeline/extract_out_of_core.h"
+#include "support/environment.h"
+#include "support/surfaces.h"
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/derivatives/gradient_estimation.h>
+#include <pcl_uvol/io/dataset.h>
+#include <pcl_uvol/levelset/level_set_evolution.h>
+#include <pcl_uvol/render/image_space/image_space_renderer.h>
+#include <pcl_uvol/surface/splat_generation.h>
+#include <pcl_uvol/surface/surface_normals.h>
+
+#include <gtest/gtest.h>
+#include <pcl/common/io.h>
+#include <pcl/conversions.h>
+
+#include <numeric>
+
+namespace {
+
+using namespace uvol_test;
+using pcl_uvol::Dataset;
+using pcl_uvol::PointSplat;
+
+/** Rows far out among the samples, with a value on either side of the isovalue. */
+Cloud::Ptr
+withStrays(const Cloud& cloud, const std::vector<float>& places)
+{
+  Cloud::Ptr more(new Cloud(cloud));
+  for (const float place : places) {
+    pcl::PointXYZI point;
+    point.x = place;
+    point.y = -place;
+    point.z = 1.0f;
+    point.intensity = more->size() % 2 == 0 ? 0.0f : 1.0f;
+    more->insert(more->begin() + 7, point);
+  }
+  return more;
+}
+
+pcl_uvol::LevelSet
+evolveField(const pcl_uvol::CloudView& cloud, const std::string& field, double isovalue)
+{
+  pcl::Indices all(cloud.count);
+  std::iota(all.begin(), all.end(), 0);
+  pcl_uvol::LevelSetParameters parameters;
+  parameters.field = field;
+  parameters.isovalue = isovalue;
+  Report report;
+  return pcl_uvol::detail::evolveLevelSet(cloud, all, parameters, 0, {}, 0, report);
+}
+
+TEST(Strays, AreLeftOutCountedAndNamed)
+{
+  const auto cloud = makeSamples(0);
+  Report report;
+  const IsosurfaceParameters settings = settingsOf(Interpolation::Fit);
+  const Isopoints expected = extract(cloud, settings);
+  expectSame(expected, extract(withStrays(*cloud, {-1e20f}), settings, &report));
+  EXPECT_EQ(1u, report.getCount("strays"));
+  ASSERT_EQ(1u, report.warnings.size());
+  EXPECT_EQ("1 point lies 1e12 times as far out as most others and is left out: it is "
+            "point 7 at (-1e+20, 1e+20, 1).",
+            report.warnings[0]);
+  const std::vector<float> many(1000, 3.4e38f);
+  expectSame(expected, extract(withStrays(*cloud, many), settings, &report));
+  EXPECT_EQ(1000u, report.getCount("strays"));
+}
+
+TEST(Strays, WithinReachStay)
+{
+  const auto cloud = makeSamples(0);
+  Report report;
+  const auto isopoints =
+      extract(withStrays(*cloud, {1e12f}), settingsOf(Interpolation::Fit), &report);
+  EXPECT_EQ(0u, report.getCount("strays"));
+  EXPECT_GT(isopoints.size(), 400u);
+}
+
+TEST(Strays, AreTheSameOnRanksAndDisks)
+{
+  const auto cloud = withStrays(*makeSamples(0, 40000), {1e20f, -3e30f, 1e20f});
+  const IsosurfaceParameters settings = settingsOf(Interpolation::Fit);
+  Report alone;
+  const Isopoints expected = extract(cloud, settings, &alone);
+  EXPECT_EQ(3u, alone.getCount("strays"));
+  const TemporaryFolder folder;
+  Dataset dataset;
+  pcl::toPCLPointCloud2(*cloud, dataset.cloud);
+  pcl_uvol::saveDataset(folder / "in.pcd", dataset);
+  pcl_uvol::PointStream points(folder / "in.pcd");
+  pcl_uvol::OutOfCoreSettings out_of_core;
+  out_of_core.max_memory = pcl_uvol::leastOutOfCoreMemory(points.size(), 1);
+  out_of_core.scratch_folder = folder / "";
+  Report report;
+  expectSame(expected,
+             extractOutOfCore(points, settings, out_of_core, report).isopoints);
+  EXPECT_EQ(3u, report.getCount("strays"));
+  EXPECT_EQ(alone.warnings, report.warnings);
+}
+
+TEST(Strays, HarmNoStage)
+{
+  const auto cloud = withStrays(*makeSamples(0), {1e20f, -1e34f});
+  std::vector<int> all(cloud->size());
+  std::iota(all.begin(), all.end(), 0);
+  const auto view = pcl_uvol::viewOf(*cloud);
+  Report report;
+  const auto gradients =
+      pcl_uvol::detail::estimateGradients(view, all, {}, nullptr, 0, report);
+  EXPECT_TRUE(std::isnan(gradients[7].gradient_x));
+  EXPECT_EQ(2u, report.getCount("strays"));
+  const auto level_set = evolveField(view, "intensity", sphere_radius);
+  EXPECT_TRUE(std::isnan(level_set.phi[7]));
+  EXPECT_TRUE(level_set.summary.converged);
+
+  Cloud sphere;
+  pcl::copyPointCloud(*makeSphere(2000, 3), sphere);
+  const auto surface = withStrays(sphere, {1e20f, -1e34f});
+  const auto surface_view = pcl_uvol::viewOf(*surface);
+  const auto normals = pcl_uvol::detail::estimateSurfaceNormals(
+      surface_view, allOf(surface->size()), {}, nullptr, 0, report);
+  EXPECT_TRUE(std::isnan(normals[7].normal[0]));
+  EXPECT_FALSE(std::isnan(normals[9].normal[0]));
+  const auto splats = pcl_uvol::detail::generateSplats(
+      surface_view, allOf(surface->size()), {}, 0, report);
+  for (const PointSplat& splat : splats.cloud)
+    EXPECT_LT(splat.getVector3fMap().norm() + splat.radius, 10.0f);
+  pcl::PCLPointCloud2::Ptr drawn(new pcl::PCLPointCloud2);
+  pcl::toPCLPointCloud2(*surface, *drawn);
+  pcl_uvol::ImageSpaceRenderer<pcl::PCLPointCloud2> renderer;
+  renderer.setInputCloud(drawn);
+  EXPECT_LT(renderer.getBounds().radius, 10.0);
+}
+
+TEST(Scale, BeyondFloatIsRefusedOrWorks)
+{
+  IsosurfaceParameters settings = settingsOf(Interpolation::Fit);
+  settings.scale = {1e30f, 1.0f, 1.0f};
+  EXPECT_GT(extract(makeSamples(0), settings).size(), 0u);
+  settings.scale = {1e38f, 1.0f, 1e-38f};
+  EXPECT_THROW(extract(makeSamples(0), settings), pcl_uvol::InvalidArgument);
+}
+
+} // namespace
