@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/number_range.h"
-#include "common/numbers.h"
 #include "levelset/band.h"
 #include "levelset/constants.h"
 #include "levelset/data_term.h"
 #include "levelset/deviation.h"
 #include "levelset/evolver.h"
 #include "levelset/level_set_input.h"
+#include "levelset/level_set_sentences.h"
 #include "levelset/mu_choice.h"
 #include "levelset/reinitialization.h"
 #include "levelset/robust_values.h"
@@ -17,7 +17,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <sstream>
 #include <string>
 
 namespace pcl_uvol {
@@ -39,21 +38,6 @@ findLargestPhi(const SampleSet& samples)
     }
   return level_set.most_extents *
          std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
-}
-
-/** What helps against divergence, of the parameters that are not the stable ones. */
-std::string
-adviseStability(const LevelSetParameters& parameters)
-{
-  if (parameters.scheme == FitScheme::Linear)
-    return "use the quadratic scheme";
-  if (parameters.bound == StepBound::Cfl)
-    return "bound the steps by the stencils";
-  if (parameters.reinitialization == Reinitialization::Diffusion)
-    return "reinitialise by distance";
-  if (parameters.initial.kind != InitialKind::Values)
-    return "start from the values";
-  return "give a larger mu, or extract the isosurface without smoothing";
 }
 
 /** One run, from the samples to phi. */
@@ -420,15 +404,14 @@ private:
       reportLostFeatures();
     if (findCrossing(samples_, phi_, threads_).empty()) {
       summary_.converged = false;
-      report_.warnings.push_back("The level set of " + parameters_.field +
-                                 " at the isovalue " +
-                                 describeNumbers({parameters_.isovalue})[0] +
-                                 " has vanished: smoothing took the whole surface "
-                                 "away. A larger mu keeps it.");
+      report_.warnings.push_back(describeVanished(parameters_));
       return;
     }
     if (!summary_.converged)
-      warnOfStepLimit();
+      report_.warnings.push_back(describeStepLimit(
+          parameters_,
+          summary_,
+          isLastStage() ? std::nullopt : std::optional(stages_.back().mu)));
     if (!summary_.smoothed) // the surface is that of the field itself, whatever phi is
       makeDistance(level_set.final_slope_error, [&] { return makeDistanceOfBand(); });
     if (stages_.empty())
@@ -500,32 +483,8 @@ private:
     if (static_cast<double>(lost) <
         level_set.lost_share * static_cast<double>(input_.crossing.size()))
       return;
-    std::ostringstream text;
-    text.precision(2);
-    text << "Smoothing has taken features away: "
-         << describeCount(lost, "sample that lies", "samples that lie")
-         << " farther from the isovalue " << describeNumbers({parameters_.isovalue})[0]
-         << " than noise explains " << (lost == 1 ? "is" : "are")
-         << " on the other side of the surface now. A larger mu "
-            "than "
-         << summary_.mu << " keeps more of them.";
-    report_.warnings.push_back(text.str());
-  }
-
-  void
-  warnOfStepLimit()
-  {
-    std::ostringstream text;
-    text.precision(2);
-    text << "The level set at " << describeNumbers({parameters_.isovalue})[0]
-         << " has not converged after "
-         << describeCount(summary_.steps.size(), "step", "steps")
-         << ": it still moves by " << summary_.steps.back().change
-         << " spacings per unit of time.";
-    if (!isLastStage())
-      text << " It ended at mu " << summary_.mu << ", where " << stages_.back().mu
-           << " was chosen.";
-    report_.warnings.push_back(text.str());
+    report_.warnings.push_back(
+        describeLostFeatures(parameters_.isovalue, lost, summary_.mu));
   }
 
   const LevelSetParameters& parameters_;
