@@ -38,14 +38,16 @@ describe(const pcl_uvol::LevelSetSummary& summary,
   facts.emplace_back("mu" + of_isovalue,
                      text(summary.mu,
                           mu_is_automatic
-                              ? " (automatic: by the expected deviation; 1 follows the "
-                                "data, 0 only smooths)"
+                              ? " (automatic: the last of smaller and smaller weights, "
+                                "each for a time; as -mu it smooths more)"
                               : ""),
                      summary.mu);
   const auto& last = summary.steps.back();
   facts.emplace_back(
       "level set" + of_isovalue,
-      text(summary.converged ? "converged" : "not converged",
+      text(!summary.converged ? "not converged"
+           : mu_is_automatic  ? "as near to the true one as is expected"
+                              : "converged",
            " after ",
            pcl_uvol::describeCount(summary.steps.size(), "step", "steps"),
            ", moves by ",
