@@ -360,6 +360,12 @@ scoreHeldOut(const std::vector<HeldOutSample>& samples)
   return score;
 }
 
+/** Samples beyond the error, and their share on the right side, below which errors
+ * cannot be trusted: of dense samples it is 0.98 and more. @{ */
+constexpr std::size_t least_beyond_error = 30;
+constexpr double trusted_side = 0.8;
+/** @} */
+
 void
 warnOfScores(const std::vector<ValidationScore>& scores,
              const IsosurfacePipelineParameters& parameters,
@@ -383,6 +389,15 @@ warnOfScores(const std::vector<ValidationScore>& scores,
       "out better than the surface does: trust where it crosses lines of samples, not "
       "what lies between." +
           adviseRemedies(parameters));
+  warn_where(
+      [](const ValidationScore& score) {
+        return score.beyond_error >= least_beyond_error &&
+               score.side_beyond_error < trusted_side;
+      },
+      "Of the samples that were left out farther from the surface than its estimated "
+      "error many lie on the wrong side: the errors are too small there, or the "
+      "samples "
+      "are noisy.");
 }
 
 Folds

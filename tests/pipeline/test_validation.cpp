@@ -135,7 +135,7 @@ TEST(Validation, SaysWhoIsBetterThanTheSurface)
       const bool is_above = i >= below, side = i < 70;
       const bool nearest = side ? i >= lost : i < 70 + gained;
       samples.push_back(
-          {0, is_above, nearest == is_above, true, side == is_above, true, 1.0f, 0.5f});
+          {0, is_above, nearest == is_above, true, side == is_above, true, 0.5f, 1.0f});
     }
     Report report;
     warnOfScores({scoreHeldOut(samples)}, parameters, report);
@@ -158,6 +158,32 @@ TEST(Validation, SaysWhoIsBetterThanTheSurface)
   Report none;
   warnOfScores({scoreHeldOut({})}, parameters, none);
   EXPECT_TRUE(none.warnings.empty());
+}
+
+TEST(Validation, SaysWhereErrorsAreTooSmall)
+{
+  // The surface tells all within its error rightly, and a part of those beyond it.
+  const auto warn = [](int beyond, int wrong) {
+    std::vector<HeldOutSample> samples;
+    for (int i = 0; i < 200; ++i) {
+      const bool is_above = i % 2 == 0, is_right = i >= wrong;
+      samples.push_back({0,
+                         is_above,
+                         is_above == is_right,
+                         true,
+                         is_above == is_right,
+                         true,
+                         i < beyond ? 1.5f : 0.5f,
+                         1.0f});
+    }
+    Report report;
+    warnOfScores({scoreHeldOut(samples)}, {}, report);
+    return report.warnings;
+  };
+  EXPECT_TRUE(warn(29, 29).empty());
+  EXPECT_TRUE(warn(30, 6).empty());
+  ASSERT_EQ(1u, warn(30, 7).size());
+  EXPECT_NE(std::string::npos, warn(30, 7)[0].find("errors are too small"));
 }
 
 TEST(Validation, SaysThatNoiseHasNoSurface)

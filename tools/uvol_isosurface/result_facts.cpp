@@ -56,10 +56,16 @@ describeValidation(const pcl_uvol::ValidationScore& score,
   const auto number = [](auto value) {
     return Fact::Numbers{static_cast<double>(value)};
   };
+  std::ostringstream near;
+  near.precision(2);
+  near << ", "
+       << 100.0 * static_cast<double>(score.covered) / static_cast<double>(score.tested)
+       << " % of all that were left out";
   return {
       Fact("left out near the surface" + of_isovalue,
-           score.covered == 0 ? std::string("none of ") + std::to_string(score.tested)
-                              : describeShares("side", score.side, score.covered))
+           score.covered == 0
+               ? "none of " + std::to_string(score.tested)
+               : describeShares("side", score.side, score.covered) + near.str())
           .withoutJson(),
       Fact("left out" + of_isovalue, describeShares("class", score.field, score.tested))
           .withoutJson(),
