@@ -4,9 +4,9 @@
 #include "common/scalar_field.h"
 #include "pipeline/dataset_info.h"
 #include "render/stretch_surface.h"
+#include "viewer/drafting_pipeline.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
-#include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
 #include <Eigen/Geometry>
 
@@ -14,7 +14,6 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <set>
 #include <sstream>
 #include <utility>
 
@@ -155,22 +154,16 @@ ShownSurface::ShownSurface(pcl_uvol::Dataset dataset,
   if (!(range_[0] < range_[1]))
     throw InvalidArgument("All values of " + field_ +
                           " are equal: there is no isosurface between them.");
-  const auto pipeline = std::make_shared<pcl_uvol::IsosurfacePipeline>();
-  pipeline->setInput(samples);
-  pipeline->setNumberOfThreads(threads);
+  const auto pipeline = std::make_shared<DraftingPipeline>(samples, field, threads);
   worker_ = std::make_unique<SurfaceWorker>(
-      [pipeline, field, factors, threads](const SurfaceRequest& request,
-                                          const pcl_uvol::ProgressCallback& progress) {
-        pcl_uvol::IsosurfacePipelineParameters parameters;
-        if (request.is_meshed)
-          parameters.mesh.emplace().open = true; // caps would hide the surface
-        parameters.isosurface.field = field;
-        const std::set<double> isovalues(request.isovalues.begin(),
-                                         request.isovalues.end());
-        parameters.isosurface.isovalues = {isovalues.begin(), isovalues.end()};
-        pipeline->setParameters(parameters);
-        pipeline->setProgressCallback(progress);
-        return makeShown(pipeline->run(), request, factors, threads, progress);
+      [pipeline, factors, threads](const SurfaceRequest& request,
+                                   unsigned thinning,
+                                   const pcl_uvol::ProgressCallback& progress) {
+        return makeShown(pipeline->run(request, thinning, progress),
+                         request,
+                         factors,
+                         threads,
+                         progress);
       });
 }
 

@@ -97,15 +97,16 @@ public:
     return asked_.is_meshed;
   }
 
-  /** \brief Whether something that was asked for is not shown yet, or its footprints
-   * are not found yet. */
+  /** \brief Whether something that was asked for is not shown yet, or only a draft of
+   * it. */
   bool
   isBusy() const
   {
     return worker_ && worker_->isBusy();
   }
 
-  /** \brief Show what was extracted since the last call.
+  /** \brief Show what was extracted since the last call: drafts of large surfaces come
+   * before these.
    * \return false if that is nothing
    * \throws what the extraction has thrown; what was shown is then what is asked for */
   bool

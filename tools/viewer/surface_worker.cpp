@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "viewer/surface_worker.h"
 
+#include <chrono>
 #include <utility>
 
 namespace uvol_tools {
@@ -10,10 +11,14 @@ namespace {
 /** Thrown through what is under way to end it. */
 struct Ended {};
 
+/** How long a slider that rests between two moves of a hand keeps its draft. */
+constexpr std::chrono::milliseconds pause(100);
+
 } // namespace
 
-SurfaceWorker::SurfaceWorker(Extract extract)
+SurfaceWorker::SurfaceWorker(Extract extract, double milliseconds)
     : extract_(std::move(extract))
+    , choice_(milliseconds)
     , thread_([this] { work(); })
 {
 }
@@ -60,7 +65,10 @@ SurfaceWorker::finish()
 {
   {
     std::unique_lock<std::mutex> lock(mutex_);
+    is_awaited_ = true;
+    changed_.notify_all();
     changed_.wait(lock, [this] { return !waiting_ && !is_working_; });
+    is_awaited_ = false;
   }
   return take();
 }
@@ -77,49 +85,86 @@ SurfaceWorker::work()
     is_working_ = true;
     is_overtaken_ = false;
     lock.unlock();
-    if (const auto prepared = extract(request))
-      findFootprints(*prepared);
+    answer(request);
     lock.lock();
     is_working_ = false;
     changed_.notify_all();
   }
 }
 
-std::shared_ptr<pcl_uvol::PreparedSurface>
-SurfaceWorker::extract(const SurfaceRequest& request)
+void
+SurfaceWorker::answer(const SurfaceRequest& request)
 {
-  std::shared_ptr<pcl_uvol::PreparedSurface> prepared;
-  std::optional<Result> result;
-  std::exception_ptr error;
+  const unsigned thinning = is_awaited_ ? 1 : choice_.choose();
+  const bool is_drafted = thinning > 1 && draft(request, thinning);
+  if (!is_drafted || rests())
+    complete(request, is_drafted);
+}
+
+bool
+SurfaceWorker::draft(const SurfaceRequest& request, unsigned thinning)
+{
   try {
-    result = Result{request, extract_(request, [this](const std::string&, double) {
-                      if (is_ending_)
-                        throw Ended();
-                    })};
-    prepared = result->surface.prepared;
+    std::optional<Result> result =
+        extract(request, thinning, [this] { return is_awaited_.load(); });
+    if (!result->surface.cloud)
+      return false;
+    give(std::move(result), nullptr);
+    return true;
   }
-  catch (...) {
-    error = std::current_exception();
+  catch (...) { // what is wrong is told by the surface of all samples
+    return false;
   }
-  const std::lock_guard<std::mutex> lock(mutex_);
-  result_ = std::move(result);
-  error_ = std::move(error);
-  return prepared;
 }
 
 void
-SurfaceWorker::findFootprints(pcl_uvol::PreparedSurface& prepared)
+SurfaceWorker::complete(const SurfaceRequest& request, bool is_drafted)
 {
-  const auto end_if_overtaken = [this](const std::string&, double) {
-    if (is_ending_ || is_overtaken_)
+  try {
+    give(extract(request, 1, [&] { return is_drafted && is_overtaken_; }), nullptr);
+  }
+  catch (const Ended&) {
+  }
+  catch (...) {
+    give(std::nullopt, std::current_exception());
+  }
+}
+
+SurfaceWorker::Result
+SurfaceWorker::extract(const SurfaceRequest& request,
+                       unsigned thinning,
+                       const std::function<bool()>& is_unwanted)
+{
+  const auto end_if_unwanted = [&](const std::string&, double) {
+    if (is_ending_ || is_unwanted())
       throw Ended();
   };
-  try {
-    end_if_overtaken("", 0.0);
-    prepared.findFootprints(end_if_overtaken);
-  }
-  catch (...) { // it is drawn without them, and tells why when it is drawn with them
-  }
+  const auto start = std::chrono::steady_clock::now();
+  Result result{request, extract_(request, thinning, end_if_unwanted)};
+  if (result.surface.prepared)
+    result.surface.prepared->findFootprints(end_if_unwanted);
+  choice_.tell(thinning,
+               std::chrono::duration<double, std::milli>(
+                   std::chrono::steady_clock::now() - start)
+                   .count());
+  return result;
+}
+
+void
+SurfaceWorker::give(std::optional<Result>&& result, std::exception_ptr error)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  result_ = std::move(result);
+  error_ = std::move(error);
+}
+
+bool
+SurfaceWorker::rests()
+{
+  std::unique_lock<std::mutex> lock(mutex_);
+  changed_.wait_for(
+      lock, pause, [this] { return is_ending_ || is_awaited_ || is_overtaken_; });
+  return !is_ending_ && !is_overtaken_;
 }
 
 } // namespace uvol_tools

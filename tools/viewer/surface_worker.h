@@ -2,6 +2,7 @@
 // Isosurfaces that are extracted while the window goes on.
 #pragma once
 
+#include "viewer/draft_choice.h"
 #include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/render/image_space/image_space_renderer.h>
@@ -40,16 +41,22 @@ struct ExtractedSurface {
   std::shared_ptr<pcl_uvol::PreparedSurface> prepared; ///< of cloud; null for a mesh
 };
 
-/** \brief Extracts isosurfaces in a thread of its own, one at a time. Requests that are
- * overtaken by newer ones before their turn comes are dropped; the one under way is
- * done, so that a slider that never rests shows something, too. Footprints of a surface
- * are found when it can be taken already and nothing newer is asked for. */
+/** \brief Extracts isosurfaces in a thread of its own, one at a time, each with its
+ * footprints. Where a surface of all samples takes too long to follow a slider, a draft
+ * of some of them comes first, and the surface itself when nothing newer has been asked
+ * for during a pause.
+ *
+ * Requests that are overtaken by newer ones before their turn comes are dropped, and
+ * surfaces after their drafts are ended; what is shown first of a request is done, so
+ * that a slider that never rests shows something, too. */
 class SurfaceWorker {
 public:
-  /** \brief Makes a surface, in the worker's thread. What it tells to the progress is
-   * dropped, but ends it when the worker ends. */
-  using Extract = std::function<ExtractedSurface(
-      const SurfaceRequest& request, const pcl_uvol::ProgressCallback& progress)>;
+  /** \brief Makes a surface, in the worker's thread, of one of so many samples. What it
+   * tells to the progress is dropped, but ends it when it is not wanted any more. */
+  using Extract =
+      std::function<ExtractedSurface(const SurfaceRequest& request,
+                                     unsigned thinning,
+                                     const pcl_uvol::ProgressCallback& progress)>;
 
   /** \brief A surface, and what it is of. */
   struct Result {
@@ -57,7 +64,12 @@ public:
     ExtractedSurface surface;
   };
 
-  explicit SurfaceWorker(Extract extract);
+  /** \brief Milliseconds that the first surface of a request may take: with its frame,
+   * a slider's step then takes about half as long again. */
+  static constexpr double usual_goal = 100.0;
+
+  /** \param milliseconds what the first surface of a request may take */
+  explicit SurfaceWorker(Extract extract, double milliseconds = usual_goal);
   SurfaceWorker(const SurfaceWorker&) = delete;
   SurfaceWorker&
   operator=(const SurfaceWorker&) = delete;
@@ -68,8 +80,8 @@ public:
   void
   ask(const SurfaceRequest& request);
 
-  /** \brief Whether a surface that was asked for is not taken yet, or has not all of
-   * its footprints. */
+  /** \brief Whether a surface that was asked for is not taken yet, or only a draft of
+   * it. */
   bool
   isBusy() const;
 
@@ -79,7 +91,7 @@ public:
   std::optional<Result>
   take();
 
-  /** \brief The same once all that was asked for is done. */
+  /** \brief The same once all that was asked for is done, without drafts. */
   std::optional<Result>
   finish();
 
@@ -88,22 +100,44 @@ private:
   void
   work();
 
-  /** Extract a surface, with what is thrown in the place of a result.
-   * \return what is to be drawn; null: nothing */
-  std::shared_ptr<pcl_uvol::PreparedSurface>
-  extract(const SurfaceRequest& request);
-
-  /** Find footprints until something newer is asked for. */
+  /** Extract what is asked for, a draft of it first if it is a long way. */
   void
-  findFootprints(pcl_uvol::PreparedSurface& prepared);
+  answer(const SurfaceRequest& request);
+
+  /** Make a draft.
+   * \return whether it shows something, so that there is no hurry any more */
+  bool
+  draft(const SurfaceRequest& request, unsigned thinning);
+
+  /** Make the surface of all samples, with what is thrown in the place of a result.
+   * \param is_drafted it ends when something newer is asked for */
+  void
+  complete(const SurfaceRequest& request, bool is_drafted);
+
+  /** Extract a surface and find its footprints. */
+  Result
+  extract(const SurfaceRequest& request,
+          unsigned thinning,
+          const std::function<bool()>& is_unwanted);
+
+  /** Give a surface, or what was thrown in its place. */
+  void
+  give(std::optional<Result>&& result, std::exception_ptr error);
+
+  /** Wait a while whether something newer is asked for.
+   * \return false: it is, or nothing is wanted any more */
+  bool
+  rests();
 
   const Extract extract_;
+  DraftChoice choice_;       // of the thread
   mutable std::mutex mutex_; // of all below
   std::condition_variable changed_;
   std::optional<SurfaceRequest> waiting_;
   bool is_working_ = false;
   std::atomic<bool> is_ending_ = false;
   std::atomic<bool> is_overtaken_ = false; // by what waits
+  std::atomic<bool> is_awaited_ = false;   // by finish()
   std::optional<Result> result_;
   std::exception_ptr error_; // in the place of a result
   std::thread thread_;       // last: it uses the others

@@ -242,11 +242,8 @@ ViewerWindow::setUpScene(const pcl_uvol::Background& background)
       if (is_new)
         showNewSurface();
     });
-    const bool has_footprints = is_hasty_ && !surface_.isBusy();
-    if (is_new || has_footprints) { // or an error is to be told
-      hurry(surface_.isBusy());
+    if (is_new) // or an error is to be told
       render();
-    }
     awaitSurface();
   });
 }
@@ -449,16 +446,8 @@ ViewerWindow::awaitSurface()
 void
 ViewerWindow::finish()
 {
-  hurry(false);
   if (surface_.finish())
     showNewSurface();
-}
-
-void
-ViewerWindow::hurry(bool is_hasty)
-{
-  prop_->renderer().setHasty(is_hasty);
-  is_hasty_ = is_hasty;
 }
 
 void

@@ -178,11 +178,6 @@ private:
   void
   awaitSurface();
 
-  /** Draw without footprints that are not found yet, or with them: those of a surface
-   * take about as long as its extraction. */
-  void
-  hurry(bool is_hasty);
-
   /** Show a surface that has come, and what is to be said of it. */
   void
   showNewSurface();
@@ -280,7 +275,6 @@ private:
   pcl_uvol::ColorScale scale_;  // of the slider
   std::array<int, 2> timers_{}; // the last ones; 0: there was none
   bool awaits_surface_ = false;
-  bool is_hasty_ = false;
   std::string error_; // of the last frame
   vtkNew<pcl_uvol::ImageSpaceProp> prop_;
   vtkNew<vtkPolyDataMapper> mesh_;
