@@ -70,6 +70,39 @@ splitStates(const Frame& frame, const std::vector<GLuint>& states, Image& image)
   }
 }
 
+/** The pixels of a row that are not transparent. */
+PixelBox
+findCoveredInRow(const Image& image, int row)
+{
+  const int width = static_cast<int>(image.width);
+  const std::uint8_t* const opacity =
+      image.color.data() + 4 * static_cast<std::size_t>(row) * image.width + 3;
+  int left = 0, right = width;
+  while (left < width && opacity[4 * left] == 0)
+    ++left;
+  while (right > left && opacity[4 * (right - 1)] == 0)
+    --right;
+  return {left, row, right, row + 1};
+}
+
+/** The box of the pixels that are not transparent. */
+PixelBox
+findCovered(const Image& image)
+{
+  PixelBox box{0, 0, 0, 0};
+  for (int row = 0; row < static_cast<int>(image.height); ++row)
+    if (const PixelBox covered = findCoveredInRow(image, row); !covered.isEmpty())
+      box = covered.unitedWith(box);
+  return box;
+}
+
+/** That box in an image whose pixels are that many times as small. */
+PixelBox
+enlarge(const PixelBox& box, int factor)
+{
+  return {box.left * factor, box.top * factor, box.right * factor, box.bottom * factor};
+}
+
 } // namespace
 
 ImagePasses::ImagePasses(const GlFunctions& gl)
@@ -369,7 +402,7 @@ ImagePasses::compose(const Frame& frame, const GlFramebuffer& target, Report& re
   const Program& program = programs_.use(shaders::composite);
   program.setTexture("colors", 0, canvas_->colors[color_]);
   program.setTexture("state", 1, canvas_->states[state_]);
-  drawOver(program, frame.view, target);
+  drawOver(program, frame.view, {0, 0, frame.view.width, frame.view.height}, target);
 }
 
 void
@@ -380,6 +413,9 @@ ImagePasses::paste(const View& view,
                    Report& report)
 {
   const PassTimer timer(gl_, report, "output");
+  const PixelBox box = findCovered(image);
+  if (box.isEmpty())
+    return;
   prepareState();
   const int width = static_cast<int>(image.width),
             height = static_cast<int>(image.height);
@@ -389,14 +425,16 @@ ImagePasses::paste(const View& view,
   program.setTexture("colors", 0, colors);
   program.setTexture("depths", 1, depths);
   program.set("scale", 1.0 / factor);
-  drawOver(program, view, target);
+  drawOver(program, view, enlarge(box, factor), target);
 }
 
 void
 ImagePasses::drawOver(const Program& program,
                       const View& view,
+                      const PixelBox& box,
                       const GlFramebuffer& target) const
 {
+  const PixelBox drawn = box.clippedTo({0, 0, view.width, view.height});
   const float* const p = target.projection;
   setView(program, view);
   program.set("origin", static_cast<float>(target.x), static_cast<float>(target.y));
@@ -406,7 +444,10 @@ ImagePasses::drawOver(const Program& program,
   program.set("clip_w", p[12], p[13], p[14], p[15]);
   gl_.BindFramebuffer(GL_FRAMEBUFFER, target.name);
   gl_.Viewport(target.x, target.y, view.width, view.height);
-  gl_.Scissor(target.x, target.y, view.width, view.height);
+  gl_.Scissor(target.x + drawn.left,
+              target.y + view.height - drawn.bottom, // rows count from below
+              drawn.width(),
+              drawn.height());
   gl_.Enable(GL_BLEND);
   gl_.BlendEquation(GL_FUNC_ADD);
   gl_.BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA); // colours are premultiplied

@@ -6,6 +6,7 @@
 #include "gl/gl_backend.h"
 #include "gl/occlusion_pass.h"
 #include "gl/point_pass.h"
+#include "render/image_space/pixel_box.h"
 
 #include <memory>
 
@@ -74,9 +75,13 @@ private:
   void
   drawOutput(const Frame& frame);
 
-  /** Draw colours and depths of the program that is in use. */
+  /** Draw colours and depths of the program that is in use.
+   * \param box the part of the view where there are any */
   void
-  drawOver(const Program& program, const View& view, const GlFramebuffer& target) const;
+  drawOver(const Program& program,
+           const View& view,
+           const PixelBox& box,
+           const GlFramebuffer& target) const;
 
   void
   readBack(const Frame& frame, Image& image) const;

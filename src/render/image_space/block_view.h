@@ -35,11 +35,11 @@ public:
   PixelBox
   box() const;
 
-private:
-  /** Distance along the line of sight of the nearest point, discs left out. */
+  /** \brief Distance along the line of sight of the nearest point, discs left out. */
   float
   nearest() const;
 
+private:
   const View& view_;
   float smallest_disc_;
   const SurfaceBlock& block_;

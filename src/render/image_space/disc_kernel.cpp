@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "render/image_space/disc_kernel.h"
 
+#include "render/image_space/blend_lanes.h"
 #include "render/image_space/disc_lanes.h"
 #include "render/image_space/disc_sight.h"
 #include "render/image_space/side_kernel.h"
@@ -27,9 +28,6 @@ keepFront(PixelKey& pixel, float depth, std::uint32_t point)
   pixel = key < pixel ? key : pixel;
 }
 
-/** Pixels that share a register: so many columns of two rows. */
-constexpr int patch_columns = lanes / 2;
-
 /** Where the rows of a patch begin, as keys of a band count. */
 struct Patch {
   std::ptrdiff_t first, second;
@@ -54,14 +52,6 @@ struct Patch {
     return fromBits(
         upperHalves(load<Longs>(band.keys + first), load<Longs>(band.keys + second)));
   }
-};
-
-/** All sums of a pixel. */
-using PixelSums = float __attribute__((vector_size(blended_values * sizeof(float))));
-
-/** What a disc adds to pixels: its normal changes over it. */
-struct DiscValues {
-  PixelSums middle, along_a, along_b;
 };
 
 /** Normals of discs, which look to the eye if surfaces have two sides, and by what they
@@ -200,9 +190,8 @@ public:
       , projection_(projection)
       , discs_(discs)
   {
-    const Floats per_z = 1.0f / disc_.center.z;
-    const Floats extent = maximum(disc_.extent(projection, disc_.center.x * per_z),
-                                  disc_.extent(projection, disc_.center.y * per_z));
+    const BallExtents ball(projection, disc_.center, disc_.radius);
+    const Floats extent = maximum(ball.x, ball.y);
     constexpr auto most = static_cast<float>(largest_side_by_side);
     const Ints is_here = laneNumbers() < fill(count);
     const Ints is_small =
@@ -216,7 +205,10 @@ public:
              (py < pixel_limit);
     column_ = toInts(small_ ? px + shift : Floats{}) - static_cast<int>(shift);
     row_ = toInts(small_ ? py + shift : Floats{}) - static_cast<int>(shift);
+    const DiscExtents extents(projection, disc_);
     reach_ = largest(small_ ? extent : Floats{});
+    reach_x_ = largest(small_ ? extents.x : Floats{});
+    reach_y_ = largest(small_ ? extents.y : Floats{});
   }
 
   /** Lanes of discs that are too large to be drawn side by side. */
@@ -271,7 +263,7 @@ private:
         (row_ - band.first_row) * static_cast<int>(band.stride) + column_;
     const Floats x = toFloats(column_) + 0.5f - disc_.px,
                  y = toFloats(row_) + 0.5f - disc_.py;
-    const float farthest = reach_ + 0.5f; // of a pixel's middle, rounded down
+    const float farthest = reach_y_ + 0.5f; // of a pixel's middle, rounded down
     const int rows = static_cast<int>(farthest);
     for (int dy = -rows; dy <= rows; ++dy) {
       const Ints row = row_ + dy;
@@ -306,7 +298,9 @@ private:
     const float left = reach_ * reach_ - rows * rows;
     if (left < 0.0f)
       return -1;
-    const float farthest = __builtin_sqrtf(left) + 0.5f; // of a pixel's middle
+    const float in_circle = __builtin_sqrtf(left);
+    const float farthest =
+        (in_circle < reach_x_ ? in_circle : reach_x_) + 0.5f; // of a pixel's middle
     return static_cast<int>(farthest);
   }
 
@@ -332,7 +326,7 @@ private:
   Ints small_, column_, row_;
   const Projection& projection_;
   const std::uint32_t* discs_;
-  float reach_; ///< of the small ones, in pixels
+  float reach_, reach_x_, reach_y_; ///< of the small ones, in pixels
   std::uint32_t large_;
 };
 
@@ -381,47 +375,6 @@ draw(const Projection& projection,
   }
 }
 
-/** Clear the sums of a pixel's segment if it is the first one there. */
-void
-reachSegment(const BlendSums& blended, std::ptrdiff_t pixel)
-{
-  const std::ptrdiff_t segment = BlendSums::segmentOf(pixel);
-  if (blended.marks[segment] != 0)
-    return;
-  blended.marks[segment] = 1;
-  const std::ptrdiff_t first = segment * blend_segment - blend_segment / 2;
-  __builtin_memset(blended.values + blended_values * first,
-                   0,
-                   sizeof(float) * blended_values * blend_segment);
-}
-
-/** Of the pixels of a row: places on a disc in its axes, and weights. */
-struct DiscPlaces {
-  const float *a, *b, *weights;
-};
-
-/** Add weighted values to the pixels of a row of a patch that have a bit. */
-void
-addToRow(const BlendSums& blended,
-         std::ptrdiff_t pixel,
-         std::uint32_t bits,
-         const DiscValues& values,
-         const DiscPlaces& places)
-{
-  if (bits == 0)
-    return;
-  static_assert(patch_columns <= blend_segment, "at most two segments");
-  reachSegment(blended, pixel + __builtin_ctz(bits));
-  reachSegment(blended, pixel + (31 - __builtin_clz(bits)));
-  for (; bits != 0; bits &= bits - 1) {
-    const int lane = __builtin_ctz(bits);
-    float* const sums = blended.values + blended_values * (pixel + lane);
-    const PixelSums here = (values.middle + values.along_a * places.a[lane]) +
-                           values.along_b * places.b[lane];
-    store(sums, load<PixelSums>(sums) + here * places.weights[lane]);
-  }
-}
-
 /** Bits for the pixels of a patch that are of a disc's side; and for those that look
  * away, of the same surface, and are seen nearly edge-on. */
 struct SideLanes {
@@ -463,7 +416,7 @@ lanesBehind(const Projection& projection,
 }
 
 void
-findDeepest(const PixelBand& band, float* deepest)
+findDeepest(const PixelBand& band, PixelKey beyond, float* deepest)
 {
   const int cells = cellsInRow(band.width);
   for (int top = band.first_row; top < band.last_row; top += cell_rows)
@@ -473,7 +426,7 @@ findDeepest(const PixelBand& band, float* deepest)
         for (int column = 0; column < cell_columns; column += lanes / 2) {
           const Longs key = load<Longs>(band.keys + row * band.stride +
                                         (cell * cell_columns + column));
-          const Longs seen = key < background_key ? key : Longs{};
+          const Longs seen = key < beyond ? key : Longs{};
           most = seen > most ? seen : most;
         }
       PixelKey last = 0;
@@ -497,6 +450,7 @@ blendDisc(const Projection& projection,
   const float facing_room = room * projection.facing_reach;
   const float center_depth = disc.distance() * projection.per_far;
   const float per_square = 1.0f / (disc.radius() * disc.radius());
+  const PixelAdder adder(values);
   disc.forPatches([&](int row,
                       int column,
                       const Ints& covered,
@@ -517,19 +471,15 @@ blendDisc(const Projection& projection,
       return;
     // Falls smoothly to zero at the rim.
     const Floats rest = 1.0f - place.square() * per_square;
-    alignas(64) float weights[lanes], a[lanes], b[lanes];
-    store(weights, rest * rest);
-    store(a, place.a);
-    store(b, place.b);
+    DiscPlaces places{place.a, place.b, rest * rest};
     for (; facing != 0; facing &= facing - 1)
-      weights[__builtin_ctz(facing)] *= projection.facing_weight;
+      places.weights[__builtin_ctz(facing)] *= projection.facing_weight;
     constexpr std::uint32_t row_bits = (1u << patch_columns) - 1;
-    addToRow(blended, patch.first, bits & row_bits, values, {a, b, weights});
-    addToRow(blended,
-             patch.second,
-             bits >> patch_columns,
-             values,
-             {a + patch_columns, b + patch_columns, weights + patch_columns});
+    const std::uint32_t first = bits & row_bits, second = bits >> patch_columns;
+    reachSegments(blended, patch.first, first);
+    reachSegments(blended, patch.second, second);
+    adder.add(blended, patch.first, 0, first, places);
+    adder.add(blended, patch.second, patch_columns, second, places);
   });
 }
 

@@ -37,6 +37,9 @@ struct BlendSums {
 constexpr int cell_rows = 8, cell_columns = 16;
 /** @} */
 
+/** Larger than all keys. */
+constexpr PixelKey all_keys = background_key + 1;
+
 /** \brief Cells side by side in so many columns. */
 constexpr int
 cellsInRow(int width)
@@ -57,8 +60,10 @@ struct DiscKernels {
 
   /** \brief Find the largest depth of a point that is seen in each cell of a band; 0
    * where there is none.
+   * \param beyond keys that are not smaller do not count: background_key, or with
+   * all_keys the depth of a cell that shows some background is infinite
    * \param deepest of the cells, row by row */
-  void (*findDeepest)(const PixelBand& band, float* deepest);
+  void (*findDeepest)(const PixelBand& band, PixelKey beyond, float* deepest);
 
   /** \brief Add discs, stretched, one after another, to all pixels of their side that
    * they cover where they lie at most their radius in front of or behind what is seen

@@ -158,6 +158,25 @@ private:
   Line lines_[2];
 };
 
+/** How far balls reach in the image, in pixels, along the axis of a slope of their
+ * centres. */
+inline Floats
+extentOf(const Projection& projection,
+         const Floats& center_z,
+         const Floats& radius,
+         const Floats& slope)
+{
+  return projection.focal * radius * squareRoot(1.0f + slope * slope) /
+         (center_z - radius);
+}
+
+/** Of camera space to the eye. */
+inline Floats
+distanceOf(const Vector& v)
+{
+  return squareRoot(v.x * v.x + v.y * v.y + v.z * v.z);
+}
+
 /** Discs, or one disc in all lanes, in camera space. */
 struct DiscLanes {
   Vector center;
@@ -241,7 +260,7 @@ struct DiscLanes {
   Floats
   distance() const
   {
-    return squareRoot(center.x * center.x + center.y * center.y + center.z * center.z);
+    return distanceOf(center);
   }
 
   /** Side of a pixel in the centres. */
@@ -249,14 +268,6 @@ struct DiscLanes {
   pixelSize(const Projection& projection) const
   {
     return center.z * (1.0f / projection.focal);
-  }
-
-  /** How far the discs reach in the image, in pixels, along the axis of a slope. */
-  Floats
-  extent(const Projection& projection, const Floats& slope) const
-  {
-    return projection.focal * radius * squareRoot(1.0f + slope * slope) /
-           (center.z - radius);
   }
 
 private:

@@ -13,19 +13,89 @@ struct PixelRange {
   int first_row, last_row, first_column, last_column;
 };
 
-/** How far up to a register of discs reach in the image. */
+/** How far up to a register of discs reach in the image to both sides of their centres,
+ * in pixels. */
+struct Extents {
+  Floats x, y;
+};
+
+/** Of balls. */
+struct BallExtents : Extents {
+  BallExtents(const Projection& projection, const Vector& center, const Floats& radius)
+  {
+    const Floats per_z = 1.0f / center.z;
+    x = extentOf(projection, center.z, radius, center.x * per_z);
+    y = extentOf(projection, center.z, radius, center.y * per_z);
+  }
+};
+
+/** Of discs, bent ones too: less than those of the balls around them where they are
+ * tilted.
+ *
+ * With v = (z, 0, -x) of the centre c, a point c + d is seen focal v.d / (z (z + d.z))
+ * beside the centre. In the plane of the normal n, d is at most the radius r long: v.d
+ * is at most r |v| times the sine of the angle between n and v; and a surface of
+ * curvature k leaves the plane by at most k r^2 / 2. */
+struct DiscExtents : BallExtents {
+  DiscExtents(const Projection& projection, const DiscLanes& discs)
+      : BallExtents(projection, discs.center, discs.radius)
+  {
+    const Vector &a = discs.a, &b = discs.b, &c = discs.center;
+    const Vector normal = {
+        a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+    const Floats sag =
+        0.5f * discs.radius *
+        (maximum(absolute(discs.saa), absolute(discs.sbb)) + absolute(discs.sab));
+    const Ints is_edge_on = absolute(dot(normal, c)) < least_cosine * distanceOf(c);
+    x = shrink(
+        x, c.z * normal.x - c.x * normal.z, c.z * c.z + c.x * c.x, sag, is_edge_on);
+    y = shrink(
+        y, c.z * normal.y - c.y * normal.z, c.z * c.z + c.y * c.y, sag, is_edge_on);
+  }
+
+  /** Discs that are seen under a smaller cosine, nearly edge-on, may be off by much
+   * more than their extent: rounding is multiplied by the square of its inverse. */
+  static constexpr float least_cosine = 0.05f;
+
+private:
+  static Floats
+  shrink(const Floats& extent,
+         const Floats& along,
+         const Floats& sq_length,
+         const Floats& sag,
+         const Ints& is_edge_on)
+  {
+    constexpr float room = 0.02f; // for rounding, in pixels
+    const Floats sq_cosine = along * along / sq_length;
+    const Floats part =
+        squareRoot(maximum(1.0f - sq_cosine, Floats{})) + sag * squareRoot(sq_cosine);
+    return is_edge_on ? extent : minimum(extent, extent * part + room);
+  }
+};
+
+/** Pixels of the image that up to a register of discs reach. */
 class DiscReach {
 public:
-  DiscReach(const Projection& projection, const DiscLanes& discs)
-      : touching_(laneBits(discs.center.z - discs.radius < projection.near))
+  /** Of balls around centres.
+   * \param px and py: where these are in the image */
+  DiscReach(const Projection& projection,
+            const Vector& center,
+            const Floats& radius,
+            const Floats& px,
+            const Floats& py)
+      : DiscReach(
+            projection, center, radius, px, py, BallExtents(projection, center, radius))
   {
-    const Floats per_z = 1.0f / discs.center.z;
-    const Floats x = discs.extent(projection, discs.center.x * per_z),
-                 y = discs.extent(projection, discs.center.y * per_z);
-    store(left_, discs.px - x);
-    store(right_, discs.px + x);
-    store(top_, discs.py - y);
-    store(bottom_, discs.py + y);
+  }
+
+  DiscReach(const Projection& projection, const DiscLanes& discs)
+      : DiscReach(projection,
+                  discs.center,
+                  discs.radius,
+                  discs.px,
+                  discs.py,
+                  DiscExtents(projection, discs))
+  {
   }
 
   /** The pixels of a band that one of them may cover: any, if it nearly touches the
@@ -42,6 +112,20 @@ public:
   }
 
 private:
+  DiscReach(const Projection& projection,
+            const Vector& center,
+            const Floats& radius,
+            const Floats& px,
+            const Floats& py,
+            const Extents& extents)
+      : touching_(laneBits(center.z - radius < projection.near))
+  {
+    store(left_, px - extents.x);
+    store(right_, px + extents.x);
+    store(top_, py - extents.y);
+    store(bottom_, py + extents.y);
+  }
+
   /** To whole pixels. */
   static void
   shrink(float low, float high, int& first, int& last)
@@ -58,14 +142,23 @@ private:
  * those that lie farther behind all that is seen in the cells that they reach. */
 class SightTest {
 public:
-  SightTest(const Projection& projection, const DiscLanes& discs)
+  /** \param distance of the centres to the eye
+   * \param facing see DiscLanes; the sign does not matter */
+  SightTest(const Projection& projection,
+            const Floats& distance,
+            const Floats& radius,
+            const Floats& facing)
   {
-    const Floats distance = discs.distance(), radius = discs.radius;
     const Floats nearest =
         ((1.0f - depth_error) * distance - 2.0f * radius) * projection.per_far -
         radius * projection.per_far;
-    edge_on_ = laneBits(absolute(discs.facing) < least_cosine * distance);
+    edge_on_ = laneBits(absolute(facing) < DiscExtents::least_cosine * distance);
     store(nearest_, nearest);
+  }
+
+  SightTest(const Projection& projection, const DiscLanes& discs)
+      : SightTest(projection, discs.distance(), discs.radius, discs.facing)
+  {
   }
 
   bool
@@ -90,12 +183,9 @@ public:
   }
 
 private:
-  /** Depths of a disc that is seen under a smaller cosine, nearly edge-on, may be off
-   * by more than its radius: rounding is multiplied by the square of its inverse.
-   * Others, at 1e-7 of the distance for each operation, by far less than the second. @{
-   */
-  static constexpr float least_cosine = 0.05f, depth_error = 1e-4f;
-  /** @} */
+  /** What depths of discs that are not nearly edge-on may be off, in parts of the
+   * distance: at 1e-7 for each operation it is far less. */
+  static constexpr float depth_error = 1e-4f;
 
   alignas(64) float nearest_[lanes];
   std::uint32_t edge_on_; ///< lanes

@@ -2,6 +2,7 @@
 #include "render/image_space/projection_kernel.h"
 
 #include "render/image_space/camera_lanes.h"
+#include "render/image_space/disc_sight.h"
 
 namespace pcl_uvol::PCL_UVOL_SIMD {
 
@@ -65,6 +66,24 @@ mayReach(const Projection& projection,
           (py - ey <= static_cast<float>(band.last_row)));
 }
 
+/** Bits of those discs that may be seen before what is seen so far, and be blended with
+ * it. */
+std::uint32_t
+leaveSeen(const DiscReach& reach,
+          const SightTest& sight,
+          std::uint32_t bits,
+          const PixelBand& band,
+          const float* deepest)
+{
+  std::uint32_t seen = 0;
+  for (; bits != 0; bits &= bits - 1) {
+    const int lane = __builtin_ctz(bits);
+    if (sight.maySee(lane, reach.rangeOf(lane, band), band, deepest))
+      seen |= 1u << lane;
+  }
+  return seen;
+}
+
 } // namespace
 
 std::size_t
@@ -73,6 +92,7 @@ projectPoints(const Projection& projection,
               std::uint32_t begin,
               std::uint32_t end,
               const PixelBand& band,
+              const float* deepest,
               std::uint32_t* discs)
 {
   std::size_t disc_count = 0;
@@ -94,6 +114,7 @@ projectPoints(const Projection& projection,
     const Floats per_z = pixelsPerLength(projection, c);
     const Floats px = projection.center_x + c.x * per_z;
     const Floats py = projection.center_y + c.y * per_z;
+    const Floats distance = distanceOf(c);
     Ints has_pixel = seen;
     if (points.radii != nullptr) {
       const Floats radius = discRadius(projection,
@@ -106,11 +127,18 @@ projectPoints(const Projection& projection,
       if (bits != 0)
         bits = laneBits(is_disc &
                         mayReach(projection, band, c, radius * points.stretch, px, py));
+      if (bits != 0 && deepest != nullptr) {
+        const Floats stretched = radius * points.stretch;
+        bits = leaveSeen(DiscReach(projection, c, stretched, px, py),
+                         SightTest(projection, distance, stretched, facing),
+                         bits,
+                         band,
+                         deepest);
+      }
       for (; bits != 0; bits &= bits - 1)
         discs[disc_count++] = i + static_cast<std::uint32_t>(__builtin_ctz(bits));
     }
-    const Floats depth =
-        squareRoot(c.x * c.x + c.y * c.y + c.z * c.z) * projection.per_far;
+    const Floats depth = distance * projection.per_far;
     // Conversion goes towards zero: what is left of the first column stays out.
     seen = has_pixel & (px >= 0.0f) & (py >= 0.0f) & (px < pixel_limit) &
            (py < pixel_limit);

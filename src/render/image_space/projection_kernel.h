@@ -58,13 +58,17 @@ struct Projection {
 constexpr std::size_t projected_points = 256;
 
 /** \brief Put points into their own pixels.
- * \param discs indices of those that are discs; room for projected_points
+ * \param deepest what is seen in each cell of the band so far, where all of it shows
+ * something, as DiscKernels::findDeepest gives it; null: nothing yet
+ * \param discs indices of those that are discs and may be seen; room for
+ * projected_points
  * \return their number */
 using ProjectionKernel = std::size_t (*)(const Projection& projection,
                                          const ProjectedPoints& points,
                                          std::uint32_t begin,
                                          std::uint32_t end,
                                          const PixelBand& band,
+                                         const float* deepest,
                                          std::uint32_t* discs);
 
 namespace baseline {
@@ -74,6 +78,7 @@ projectPoints(const Projection&,
               std::uint32_t,
               std::uint32_t,
               const PixelBand&,
+              const float*,
               std::uint32_t*);
 }
 namespace avx2 {
@@ -83,6 +88,7 @@ projectPoints(const Projection&,
               std::uint32_t,
               std::uint32_t,
               const PixelBand&,
+              const float*,
               std::uint32_t*);
 }
 namespace avx512 {
@@ -92,6 +98,7 @@ projectPoints(const Projection&,
               std::uint32_t,
               std::uint32_t,
               const PixelBand&,
+              const float*,
               std::uint32_t*);
 }
 

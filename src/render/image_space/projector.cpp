@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <tuple>
 
 namespace pcl_uvol {
 
@@ -56,22 +57,78 @@ projectionOf(const Frame& frame)
   return projection;
 }
 
-/** How a block is drawn. */
-struct BlockPlan {
-  PixelBox box; ///< that its points and discs can reach
-  bool has_discs, is_blended;
-};
-
-BlockPlan
-planBlock(const SurfaceBlock& block, const Frame& frame)
+std::size_t
+cellsOf(const PixelBand& band)
 {
-  const BlockView seen(frame, block);
-  if (seen.isBehindEye() || (frame.culls() && seen.looksAway()))
-    return {{0, 0, 0, 0}, false, false};
-  return {seen.box(), seen.mayHoldDiscs(frame.smallestDisc()), seen.isSparse()};
+  const int rows = band.last_row - band.first_row;
+  return static_cast<std::size_t>(cellsInRow(band.width) *
+                                  ((rows + cell_rows - 1) / cell_rows));
 }
 
+/** Discs of one block after another, in the order in which the blocks were drawn. */
+class DrawnDiscs {
+public:
+  /** Call add(discs), which appends those of a block. */
+  template <typename Add>
+  void
+  addBlock(const Add& add)
+  {
+    const std::size_t begin = discs_.size();
+    add(discs_);
+    if (discs_.size() > begin)
+      runs_.push_back({begin, discs_.size()});
+  }
+
+  /** In the order of the points: blocks are consecutive ones. */
+  std::vector<std::uint32_t>
+  sort()
+  {
+    std::sort(runs_.begin(), runs_.end(), [this](const Run& a, const Run& b) {
+      return discs_[a.begin] < discs_[b.begin];
+    });
+    std::vector<std::uint32_t> sorted;
+    sorted.reserve(discs_.size());
+    for (const Run& run : runs_)
+      sorted.insert(sorted.end(), &discs_[run.begin], discs_.data() + run.end);
+    return sorted;
+  }
+
+private:
+  struct Run {
+    std::size_t begin, end;
+  };
+
+  std::vector<std::uint32_t> discs_;
+  std::vector<Run> runs_;
+};
+
+/** Tells when to look again at what is seen so far: first after some blocks, then after
+ * a part of those that were drawn. */
+class LookSchedule {
+public:
+  bool
+  isDue()
+  {
+    if (++drawn_ < next_)
+      return false;
+    next_ = drawn_ + std::max(drawn_ / 4, least);
+    return true;
+  }
+
+private:
+  static constexpr std::size_t least = 32;
+
+  std::size_t drawn_ = 0, next_ = least;
+};
+
 } // namespace
+
+struct Projector::BlockPlan {
+  const SurfaceBlock* block;
+  PixelBox box;  ///< that its points and discs can reach
+  float nearest; ///< along the line of sight
+  bool has_discs, is_blended;
+};
 
 void
 PixelBuffer::resize(const View& view)
@@ -121,58 +178,99 @@ Projector::bandOf(std::size_t begin, std::size_t end) const
           static_cast<int>(end)};
 }
 
-void
-Projector::project(StepTimer& step)
+std::vector<Projector::BlockPlan>
+Projector::planBlocks() const
 {
   const std::vector<SurfaceBlock>& blocks = frame_.cloud.getBlocks();
   std::vector<BlockPlan> plans(blocks.size());
   parallelBlocks(
       blocks.size(), blocks_per_task, frame_.threads, [&](auto begin, auto end) {
-        for (std::size_t i = begin; i < end; ++i)
-          plans[i] = planBlock(blocks[i], frame_);
+        for (std::size_t i = begin; i < end; ++i) {
+          const BlockView seen(frame_, blocks[i]);
+          plans[i] = {&blocks[i],
+                      seen.box(),
+                      seen.nearest(),
+                      seen.mayHoldDiscs(frame_.smallestDisc()),
+                      seen.isSparse()};
+          if (seen.isBehindEye() || (frame_.culls() && seen.looksAway()))
+            plans[i].box = {0, 0, 0, 0};
+        }
       });
+  return plans;
+}
+
+void
+Projector::project(StepTimer& step)
+{
+  std::vector<BlockPlan> plans = planBlocks();
   buffer_.bounds = {0, 0, 0, 0};
   for (const BlockPlan& plan : plans)
     buffer_.bounds = plan.box.unitedWith(buffer_.bounds);
-
+  std::sort(plans.begin(), plans.end(), [](const BlockPlan& a, const BlockPlan& b) {
+    return std::tie(a.nearest, a.block) < std::tie(b.nearest, b.block);
+  });
   const auto rows = static_cast<std::size_t>(buffer_.height);
   discs_.assign((rows + band_rows - 1) / band_rows, {});
   parallelBlocks(rows, band_rows, frame_.threads, [&](auto begin, auto end) {
-    const PixelBand band = bandOf(begin, end);
-    std::vector<std::uint32_t>& discs = discs_[begin / band_rows];
-    for (int row = band.first_row; row < band.last_row; ++row)
-      std::fill_n(
-          buffer_.row(row), buffer_.stride - 2 * PixelBuffer::margin, background_key);
-    for (std::size_t i = 0; i < blocks.size(); ++i) {
-      const auto [box, has_discs, is_blended] = plans[i];
-      if (box.isEmpty() || box.top >= band.last_row || box.bottom <= band.first_row)
-        continue;
-      ProjectedPoints points = points_;
-      if (!has_discs)
-        points.radii = nullptr;
-      else if (!is_blended) {
-        points.radii = frame_.cloud.getFillers().data();
-        points.stretch = 1.0f;
-        points.smallest_cover = std::numeric_limits<float>::max();
-      }
-      const std::size_t known = discs.size();
-      discs.resize(known + projected_points);
-      const std::size_t added = project_(projection_,
-                                         points,
-                                         blocks[i].begin,
-                                         blocks[i].end,
-                                         band,
-                                         discs.data() + known);
-      disc_kernels_.draw(projection_,
-                         points,
-                         discs.data() + known,
-                         added,
-                         is_blended ? 0.0f : filler_depth,
-                         band);
-      discs.resize(is_blended ? known + added : known);
-    }
+    discs_[begin / band_rows] = projectBand(plans, bandOf(begin, end));
     step.advance(end - begin);
   });
+}
+
+std::vector<std::uint32_t>
+Projector::projectBand(const std::vector<BlockPlan>& plans, const PixelBand& band) const
+{
+  for (int row = band.first_row; row < band.last_row; ++row)
+    std::fill_n(
+        buffer_.row(row), buffer_.stride - 2 * PixelBuffer::margin, background_key);
+  std::vector<float> deepest(cellsOf(band));
+  const float* known_deepest = nullptr;
+  LookSchedule looks;
+  DrawnDiscs drawn;
+  for (const BlockPlan& plan : plans) {
+    const PixelBox& box = plan.box;
+    if (box.isEmpty() || box.top >= band.last_row || box.bottom <= band.first_row)
+      continue;
+    drawn.addBlock(
+        [&](auto& discs) { projectBlock(plan, band, known_deepest, discs); });
+    if (looks.isDue()) {
+      disc_kernels_.findDeepest(band, all_keys, deepest.data());
+      known_deepest = deepest.data();
+    }
+  }
+  return drawn.sort();
+}
+
+void
+Projector::projectBlock(const BlockPlan& plan,
+                        const PixelBand& band,
+                        const float* deepest,
+                        std::vector<std::uint32_t>& discs) const
+{
+  ProjectedPoints points = points_;
+  if (!plan.has_discs)
+    points.radii = nullptr;
+  else if (!plan.is_blended) {
+    points.radii = frame_.cloud.getFillers().data();
+    points.stretch = 1.0f;
+    points.smallest_cover = std::numeric_limits<float>::max();
+  }
+  const std::size_t known = discs.size();
+  discs.resize(known + projected_points);
+  const std::size_t added = project_(projection_,
+                                     points,
+                                     plan.block->begin,
+                                     plan.block->end,
+                                     band,
+                                     deepest,
+                                     discs.data() + known);
+  disc_kernels_.draw(projection_,
+                     points,
+                     discs.data() + known,
+                     added,
+                     plan.is_blended ? 0.0f : filler_depth,
+                     band);
+  discs.resize(plan.is_blended ? known + added : known);
 }
 
 void
@@ -200,9 +298,8 @@ Projector::blend(StepTimer& step)
       side_table.get()(projection_, looks, band, buffer_.firstSide());
     if (discs.empty())
       return;
-    std::vector<float> deepest(static_cast<std::size_t>(
-        cellsInRow(band.width) * ((band_rows + cell_rows - 1) / cell_rows)));
-    disc_kernels_.findDeepest(band, deepest.data());
+    std::vector<float> deepest(cellsOf(band));
+    disc_kernels_.findDeepest(band, background_key, deepest.data());
     disc_kernels_.blend(projection_,
                         points_,
                         looks,

@@ -27,8 +27,28 @@ public:
   blend(StepTimer& step);
 
 private:
+  struct BlockPlan;
+
   PixelBand
   bandOf(std::size_t begin, std::size_t end) const;
+
+  /** How the blocks are drawn. */
+  std::vector<BlockPlan>
+  planBlocks() const;
+
+  /** Project points into a band, the nearest blocks first: what they hide of others is
+   * not drawn.
+   * \return the discs to be blended, in the order of the points */
+  std::vector<std::uint32_t>
+  projectBand(const std::vector<BlockPlan>& plans, const PixelBand& band) const;
+
+  /** Project the points of a block.
+   * \param discs where those to be blended are appended */
+  void
+  projectBlock(const BlockPlan& plan,
+               const PixelBand& band,
+               const float* deepest,
+               std::vector<std::uint32_t>& discs) const;
 
   const Frame& frame_;
   PixelBuffer& buffer_;

@@ -325,11 +325,13 @@ struct Sums {
 
 /** Depths of the cells of the rows from first_row to last_row. */
 std::vector<float>
-findDeepest(const DiscKernels& kernel, PixelRows& rows)
+findDeepest(const DiscKernels& kernel,
+            PixelRows& rows,
+            PixelKey beyond = background_key)
 {
   std::vector<float> deepest(static_cast<std::size_t>(
       cellsInRow(PixelRows::width) * ((last_row - first_row) / cell_rows + 1)));
-  kernel.findDeepest(rows.band(first_row, last_row), deepest.data());
+  kernel.findDeepest(rows.band(first_row, last_row), beyond, deepest.data());
   return deepest;
 }
 
@@ -339,22 +341,28 @@ TEST(DiscKernel, FindsTheDeepestOfEachCell)
   PixelRandom random(7);
   for (int row = 0; row < PixelRows::height; ++row)
     for (int column = 0; column < PixelRows::width; ++column)
-      if ((row / 20 + column / 30) % 2 == 0 && random.below(3) == 0)
+      if ((row / 20 + column / 30) % 2 == 0 && (row > 24 || random.below(3) == 0))
         rows.first()[row * PixelRows::stride + column] =
             uvol_test::makeKey(random.between(0.1, 0.9), random.below(1u << 30));
   uvol_test::forLevels(kernels, [&](const DiscKernels* kernel) {
     const std::vector<float> deepest = findDeepest(*kernel, rows);
     const int cells = cellsInRow(PixelRows::width);
-    std::vector<float> expected(deepest.size());
+    std::vector<float> expected(deepest.size()), of_all(deepest.size());
     for (int row = first_row; row < last_row; ++row)
-      for (int column = 0; column < PixelRows::width; ++column) {
-        float& cell = expected[static_cast<std::size_t>(
-            (row - first_row) / cell_rows * cells + column / cell_columns)];
-        if (rows.at(column, row) != background_key)
-          cell = std::max(cell, readDepth(rows.at(column, row)));
+      for (int column = 0; column < cells * cell_columns; ++column) {
+        const auto cell = static_cast<std::size_t>(
+            (row - first_row) / cell_rows * cells + column / cell_columns);
+        const PixelKey key = rows.at(column, row);
+        of_all[cell] = std::max(of_all[cell], readDepth(key));
+        if (key != background_key)
+          expected[cell] = std::max(expected[cell], readDepth(key));
       }
     EXPECT_EQ(expected, deepest);
     EXPECT_NE(0, std::count(expected.begin(), expected.end(), 0.0f));
+    EXPECT_EQ(of_all, findDeepest(*kernel, rows, all_keys));
+    EXPECT_NE(0, std::count_if(of_all.begin(), of_all.end(), [](float depth) {
+                return depth > 0.0f && depth < 1.0f;
+              }));
   });
 }
 

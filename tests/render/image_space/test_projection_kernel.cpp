@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Points in pixels against projection in double precision.
 #include "pixel_setup.h"
+#include "src/render/image_space/disc_kernel.h"
 #include "src/render/image_space/projection_kernel.h"
 #include "support/simd_levels.h"
 
@@ -95,6 +96,7 @@ TEST(ProjectionKernel, PixelsHoldTheNearestPointThatIsSeen)
                        3,
                        point_count - 2,
                        rows.band(first_row, last_row),
+                       nullptr,
                        discs.data()));
       std::size_t drawn = 0;
       for (std::uint32_t i = 3; i < point_count - 2; ++i) {
@@ -136,6 +138,7 @@ TEST(ProjectionKernel, DiscsAreThoseLargerThanAPixelThatMayReachTheBand)
                         0,
                         point_count,
                         rows.band(first_row, last_row),
+                        nullptr,
                         discs.data()));
     ASSERT_TRUE(std::is_sorted(discs.begin(), discs.end()));
     const std::set<std::uint32_t> found(discs.begin(), discs.end());
@@ -185,7 +188,13 @@ TEST(ProjectionKernel, LargeDiscsReplaceThePixelsOfTheirPoints)
     const auto draw = [&](const ProjectedPoints& view) {
       PixelRows rows;
       std::vector<std::uint32_t> discs(projected_points);
-      kernel(p, view, 0, point_count, rows.band(0, PixelRows::height), discs.data());
+      kernel(p,
+             view,
+             0,
+             point_count,
+             rows.band(0, PixelRows::height),
+             nullptr,
+             discs.data());
       return rows;
     };
     ProjectedPoints view = points.view(1.0f);
@@ -210,6 +219,101 @@ TEST(ProjectionKernel, LargeDiscsReplaceThePixelsOfTheirPoints)
     }
     EXPECT_GT(replaced, 3u);
     EXPECT_GT(kept, 3u);
+  });
+}
+
+/** What discs make of rows: pixels, and sums that are blended. */
+struct DiscsInRows {
+  PixelRows rows;
+  std::vector<float> values;
+  std::vector<std::uint8_t> marks;
+
+  DiscsInRows(const DiscKernels& kernel,
+              const Projection& projection,
+              const ProjectedPoints& points,
+              const std::vector<std::uint32_t>& looks,
+              const std::vector<std::uint32_t>& discs,
+              const PixelRows& before)
+      : rows(before)
+      , values(blended_values * rows.keys.size())
+      , marks(rows.keys.size() / blend_segment)
+  {
+    const PixelBand band = rows.band(0, PixelRows::height);
+    kernel.draw(projection, points, discs.data(), discs.size(), 0.0f, band);
+    constexpr std::ptrdiff_t first = PixelRows::stride + PixelRows::margin;
+    const std::vector<float> everywhere(values.size(), 1.0f);
+    kernel.blend(
+        projection,
+        points,
+        looks.data(),
+        discs.data(),
+        discs.size(),
+        band,
+        everywhere.data(),
+        {values.data() + blended_values * first, marks.data() + first / blend_segment});
+  }
+};
+
+/** In view, at depths of about 0.35 to 0.65. */
+PointArrays
+pointsInView()
+{
+  PixelRandom random(9);
+  PointArrays points;
+  while (points.size() < point_count) {
+    const Vector3d x{random.between(-1.2, 1.2),
+                     random.between(-1.2, 1.2),
+                     random.between(-1.2, 1.2)};
+    points.add(x, random.direction(), random.between(0.05, 0.1));
+  }
+  return points;
+}
+
+TEST(ProjectionKernel, DiscsThatAreLeftOutWouldChangeNothing)
+{
+  const TestCamera camera;
+  const Projection& p = camera.projection;
+  const PointArrays points = pointsInView();
+  const KernelTable<const DiscKernels*> disc_kernels{
+      &baseline::disc_kernels, &avx2::disc_kernels, &avx512::disc_kernels};
+  std::vector<std::uint32_t> looks;
+  for (const std::uint32_t normal : points.normals)
+    looks.insert(looks.end(), {normal, 0xffffff});
+  PixelRandom random(8);
+  PixelRows before; // a layer with a hole
+  for (int row = 0; row < PixelRows::height; ++row)
+    for (int column = 0; column < PixelRows::width; ++column)
+      if (row / 32 != 1 || column / 48 != 1)
+        before.first()[row * PixelRows::stride + column] =
+            uvol_test::makeKey(random.between(0.4, 0.42), 0);
+  uvol_test::forLevels(kernels, [&](ProjectionKernel kernel) {
+    const DiscKernels& disc_kernel = *disc_kernels.get();
+    const ProjectedPoints view = points.view(1.5f);
+    const auto find = [&](const float* deepest) {
+      PixelRows rows = before;
+      std::vector<std::uint32_t> discs(projected_points);
+      discs.resize(kernel(p,
+                          view,
+                          0,
+                          point_count,
+                          rows.band(0, PixelRows::height),
+                          deepest,
+                          discs.data()));
+      return discs;
+    };
+    std::vector<float> deepest(static_cast<std::size_t>(
+        cellsInRow(PixelRows::width) * (PixelRows::height / cell_rows + 1)));
+    PixelRows rows = before;
+    disc_kernel.findDeepest(rows.band(0, PixelRows::height), all_keys, deepest.data());
+    const std::vector<std::uint32_t> all = find(nullptr), seen = find(deepest.data());
+    EXPECT_LT(seen.size() + 30, all.size());
+    EXPECT_TRUE(std::includes(all.begin(), all.end(), seen.begin(), seen.end()));
+    const DiscsInRows of_all(disc_kernel, p, view, looks, all, before),
+        of_seen(disc_kernel, p, view, looks, seen, before);
+    EXPECT_EQ(of_all.rows.keys, of_seen.rows.keys);
+    EXPECT_NE(before.keys, of_seen.rows.keys);
+    EXPECT_EQ(of_all.values, of_seen.values);
+    EXPECT_EQ(of_all.marks, of_seen.marks);
   });
 }
 
