@@ -225,6 +225,27 @@ loadShorts(const std::int16_t* values)
 #endif
 }
 
+/** Bytes of two rows, half a register of each. */
+inline Ints
+loadBytes(const std::uint8_t* first, const std::uint8_t* second)
+{
+#if defined(__AVX512F__)
+  // Through memory the parts would have to wait for one another.
+  std::int64_t rows[2];
+  __builtin_memcpy(&rows[0], first, sizeof rows[0]);
+  __builtin_memcpy(&rows[1], second, sizeof rows[1]);
+  const __m128i bytes = _mm_set_epi64x(rows[1], rows[0]);
+  return bitCast<Ints>(_mm512_maskz_cvtepu8_epi32(0xffff, bytes));
+#else
+  Ints bytes{};
+  for (int lane = 0; lane < lanes / 2; ++lane) {
+    bytes[lane] = first[lane];
+    bytes[lanes / 2 + lane] = second[lane];
+  }
+  return bytes;
+#endif
+}
+
 /** base[2 * index] of every lane. */
 inline Ints
 gatherEven(const std::uint32_t* base, const Ints& index)

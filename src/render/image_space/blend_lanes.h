@@ -50,6 +50,9 @@ reachSegments(const BlendSums& blended, std::ptrdiff_t pixel, std::uint32_t bits
 
 #if defined(__AVX512F__)
 
+/** By the bits of two pixels. */
+constexpr __mmask16 masks_of_pairs[] = {0, 0xff, 0xff00, 0xffff};
+
 /** Adds what a disc has to pixels, two side by side at once. */
 class PixelAdder {
 public:
@@ -69,17 +72,21 @@ public:
       std::uint32_t bits,
       const DiscPlaces& places) const
   {
-    constexpr std::uint32_t first_of_pairs = 0x55555555;
-    for (std::uint32_t pairs = (bits | bits >> 1) & first_of_pairs; pairs != 0;
-         pairs &= pairs - 1) {
-      const int lane = __builtin_ctz(pairs);
+    if (bits == 0)
+      return;
+      // All pairs of a row are cheaper than to predict which ones have a bit.
+#pragma GCC unroll 4
+    for (int lane = 0; lane < patch_columns; lane += 2) {
       const Ints of_pixel = (laneNumbers() >> 3) + (first + lane);
       float* const sums = blended.values + blended_values * (pixel + lane);
       const Floats here = (middle_ + along_a_ * take(places.a, of_pixel)) +
                           along_b_ * take(places.b, of_pixel);
-      const Floats sum = load<Floats>(sums) + here * take(places.weights, of_pixel);
-      constexpr __mmask16 of_pair[] = {0, 0xff, 0xff00, 0xffff};
-      _mm512_mask_storeu_ps(sums, of_pair[bits >> lane & 3], bitCast<__m512>(sum));
+      const Floats more = here * take(places.weights, of_pixel);
+      const __m512 before = _mm512_loadu_ps(sums);
+      _mm512_storeu_ps(
+          sums,
+          _mm512_mask_add_ps(
+              before, masks_of_pairs[bits >> lane & 3], before, bitCast<__m512>(more)));
     }
   }
 

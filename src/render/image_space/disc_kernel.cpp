@@ -117,10 +117,13 @@ public:
   void
   forPatches(const Visit& visit) const
   {
-    for (int row = range_.first_row; row < range_.last_row; row += 2)
-      for (int column = range_.first_column; column < range_.last_column;
-           column += patch_columns)
-        visitPatch(row, column, visit);
+    for (int top = range_.first_row; top < range_.last_row; top += 2 * lanes) {
+      const RowSpans spans(*this, top);
+      for (int pair = 0; pair < lanes && top + 2 * pair < range_.last_row; ++pair)
+        for (int column = spans.first[pair]; column < spans.last[pair];
+             column += patch_columns)
+          visitPatch(top + 2 * pair, column, spans.last[pair], visit);
+    }
   }
 
   float
@@ -142,9 +145,35 @@ public:
   }
 
 private:
+  /** The columns of pairs of rows that the circle reaches. */
+  struct RowSpans {
+    alignas(64) std::int32_t first[lanes], last[lanes];
+
+    RowSpans(const LargeDisc& disc, int top)
+    {
+      const PixelRange& range = disc.range_;
+      const Floats &px = disc.disc_.px, &py = disc.disc_.py;
+      const Floats middle = toFloats(2 * laneNumbers() + top) + 0.5f;
+      const Floats rows = maximum(maximum(middle - py, py - (middle + 1.0f)), Floats{});
+      const Floats columns =
+          squareRoot(maximum(range.circle * range.circle - rows * rows, Floats{})) +
+          (0.5f + pixel_room);
+      const float left = static_cast<float>(range.first_column),
+                  right = static_cast<float>(range.last_column);
+      store(first, toInts(clampTo(px - columns + 1.0f, left, right)));
+      store(last, toInts(clampTo(px + columns, left, right)));
+    }
+
+    static Floats
+    clampTo(const Floats& x, float low, float high)
+    {
+      return minimum(maximum(x, fill(low)), fill(high));
+    }
+  };
+
   template <typename Visit>
   void
-  visitPatch(int row, int column, const Visit& visit) const
+  visitPatch(int row, int column, int last_column, const Visit& visit) const
   {
     const Ints lane = laneNumbers();
     const Ints rows = row - (lane >= patch_columns); // a true one is -1
@@ -152,8 +181,8 @@ private:
     const Floats ex = toFloats(columns) + 0.5f - disc_.px,
                  ey = toFloats(rows) + 0.5f - disc_.py;
     const BentPlace place = is_bent_ ? bent_.at(ex, ey) : bent_.atFlat(ex, ey);
-    const Ints inside = place.covered & (rows < fill(range_.last_row)) &
-                        (columns < fill(range_.last_column));
+    const Ints inside =
+        place.covered & (rows < fill(range_.last_row)) & (columns < fill(last_column));
     if (laneBits(inside) == 0)
       return;
     const Floats qx = slopeOf(columns, projection_.center_x, projection_.focal);
@@ -382,12 +411,7 @@ struct SideLanes {
 
   SideLanes(const std::uint8_t* first, const std::uint8_t* second, std::uint8_t side)
   {
-    alignas(64) std::int32_t sides[lanes];
-    for (int lane = 0; lane < patch_columns; ++lane) {
-      sides[lane] = first[lane];
-      sides[patch_columns + lane] = second[lane];
-    }
-    const Ints differences = load<Ints>(sides) ^ side;
+    const Ints differences = loadBytes(first, second) ^ side;
     same = laneBits((differences & ~edge_on_bit) == 0);
     away = laneBits(differences == (looks_away_bit | edge_on_bit));
   }

@@ -11,21 +11,38 @@ namespace pcl_uvol::PCL_UVOL_SIMD {
 /** Pixels, half-open ranges. */
 struct PixelRange {
   int first_row, last_row, first_column, last_column;
+  float circle; ///< middles of pixels that are farther from the centre are not meant
 };
 
 /** How far up to a register of discs reach in the image to both sides of their centres,
- * in pixels. */
+ * and in any direction, in pixels. */
 struct Extents {
-  Floats x, y;
+  Floats x, y, any;
 };
+
+/** Shrink a range to the pixels whose middles lie between two places. */
+inline void
+shrinkToMiddles(float low, float high, int& first, int& last)
+{
+  first = low + 0.5f > static_cast<float>(first) ? static_cast<int>(low + 0.5f) : first;
+  last = high + 0.5f < static_cast<float>(last) ? static_cast<int>(high + 0.5f) : last;
+}
+
+/** Room for rounding, in pixels. */
+constexpr float pixel_room = 0.02f;
 
 /** Of balls. */
 struct BallExtents : Extents {
   BallExtents(const Projection& projection, const Vector& center, const Floats& radius)
   {
     const Floats per_z = 1.0f / center.z;
-    x = extentOf(projection, center.z, radius, center.x * per_z);
-    y = extentOf(projection, center.z, radius, center.y * per_z);
+    const Floats slope_x = center.x * per_z, slope_y = center.y * per_z;
+    x = extentOf(projection, center.z, radius, slope_x);
+    y = extentOf(projection, center.z, radius, slope_y);
+    any = extentOf(projection,
+                   center.z,
+                   radius,
+                   squareRoot(slope_x * slope_x + slope_y * slope_y));
   }
 };
 
@@ -51,6 +68,7 @@ struct DiscExtents : BallExtents {
         x, c.z * normal.x - c.x * normal.z, c.z * c.z + c.x * c.x, sag, is_edge_on);
     y = shrink(
         y, c.z * normal.y - c.y * normal.z, c.z * c.z + c.y * c.y, sag, is_edge_on);
+    any = is_edge_on ? fill(__builtin_inff()) : any + pixel_room;
   }
 
   /** Discs that are seen under a smaller cosine, nearly edge-on, may be off by much
@@ -65,11 +83,11 @@ private:
          const Floats& sag,
          const Ints& is_edge_on)
   {
-    constexpr float room = 0.02f; // for rounding, in pixels
     const Floats sq_cosine = along * along / sq_length;
     const Floats part =
         squareRoot(maximum(1.0f - sq_cosine, Floats{})) + sag * squareRoot(sq_cosine);
-    return is_edge_on ? extent : minimum(extent, extent * part + room);
+    return is_edge_on ? extent + 0.5f // of a pixel
+                      : extent * minimum(part, fill(1.0f)) + pixel_room;
   }
 };
 
@@ -103,11 +121,12 @@ public:
   PixelRange
   rangeOf(int lane, const PixelBand& band) const
   {
-    PixelRange range{band.first_row, band.last_row, 0, band.width};
+    PixelRange range{band.first_row, band.last_row, 0, band.width, __builtin_inff()};
     if ((touching_ >> lane & 1) != 0)
       return range;
-    shrink(left_[lane], right_[lane], range.first_column, range.last_column);
-    shrink(top_[lane], bottom_[lane], range.first_row, range.last_row);
+    shrinkToMiddles(left_[lane], right_[lane], range.first_column, range.last_column);
+    shrinkToMiddles(top_[lane], bottom_[lane], range.first_row, range.last_row);
+    range.circle = circle_[lane];
     return range;
   }
 
@@ -124,17 +143,11 @@ private:
     store(right_, px + extents.x);
     store(top_, py - extents.y);
     store(bottom_, py + extents.y);
+    store(circle_, extents.any);
   }
 
-  /** To whole pixels. */
-  static void
-  shrink(float low, float high, int& first, int& last)
-  {
-    first = low > static_cast<float>(first) ? static_cast<int>(low) : first;
-    last = high < static_cast<float>(last) ? static_cast<int>(high) + 1 : last;
-  }
-
-  alignas(64) float left_[lanes], right_[lanes], top_[lanes], bottom_[lanes];
+  alignas(64) float left_[lanes], right_[lanes], top_[lanes], bottom_[lanes],
+      circle_[lanes];
   std::uint32_t touching_; ///< lanes
 };
 
