@@ -190,6 +190,13 @@ upperHalves(const Longs& a, const Longs& b)
 #endif
 }
 
+/** The lower 32 bits of the numbers of two registers. */
+inline Ints
+lowerHalves(const Longs& a, const Longs& b)
+{
+  return upperHalves(a << 32, b << 32);
+}
+
 /** base[index] of every lane. */
 inline Floats
 gather(const float* base, const Ints& index)
@@ -244,6 +251,14 @@ loadBytes(const std::uint8_t* first, const std::uint8_t* second)
   }
   return bytes;
 #endif
+}
+
+/** The lowest byte of every lane. */
+inline void
+storeBytes(std::uint8_t* bytes, const Ints& stored)
+{
+  using Bytes = std::uint8_t __attribute__((vector_size(lanes)));
+  store(bytes, __builtin_convertvector(stored, Bytes));
 }
 
 /** base[2 * index] of every lane. */

@@ -67,13 +67,9 @@ struct Pixels {
 
   explicit Pixels(const PixelKey* keys)
   {
-    alignas(64) std::int32_t ids[lanes], depths[lanes];
-    for (int lane = 0; lane < lanes; ++lane) {
-      ids[lane] = static_cast<std::int32_t>(keys[lane]);
-      depths[lane] = static_cast<std::int32_t>(keys[lane] >> 32);
-    }
-    id = load<Ints>(ids);
-    depth = load<Floats>(depths);
+    const Longs left = load<Longs>(keys), right = load<Longs>(keys + lanes / 2);
+    id = lowerHalves(left, right);
+    depth = fromBits(upperHalves(left, right));
   }
 };
 

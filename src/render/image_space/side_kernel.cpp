@@ -17,16 +17,13 @@ findSides(const Projection& projection,
     const PixelKey* const keys = band.keys + row * band.stride;
     const float qy = (static_cast<float>(row) + 0.5f - projection.center_y) * per_focal;
     for (int column = 0; column < band.width; column += lanes) {
-      alignas(64) std::int32_t ids[lanes];
-      bool is_empty = true;
-      for (int lane = 0; lane < lanes; ++lane) {
-        const PixelKey key = keys[column + lane];
-        ids[lane] = key == background_key ? 0 : static_cast<std::int32_t>(key);
-        is_empty = is_empty && key == background_key;
-      }
-      if (is_empty)
+      const Longs left = load<Longs>(keys + column),
+                  right = load<Longs>(keys + column + lanes / 2);
+      const Ints point = lowerHalves(left, right);
+      const Ints is_seen = point != -1; // as that of background
+      if (laneBits(is_seen) == 0)
         continue;
-      const Ints id = load<Ints>(ids);
+      const Ints id = is_seen ? point : Ints{};
       Floats n[3];
       unpackDirection(gatherEven(looks, id), n);
       const Floats qx =
@@ -37,16 +34,12 @@ findSides(const Projection& projection,
       const Floats sq_lengths =
           (n[0] * n[0] + n[1] * n[1] + n[2] * n[2]) * (qx * qx + (qy * qy + 1.0f));
       const float sq_cosine = projection.edge_on_cosine * projection.edge_on_cosine;
-      const std::uint32_t away = projection.has_sides
-                                     ? laneBits(along * projection.outward > 0.0f)
-                                     : 0,
-                          edge_on =
-                              away & laneBits(along * along < sq_lengths * sq_cosine);
-      for (int lane = 0; lane < lanes; ++lane)
-        sides[row * band.stride + column + lane] = static_cast<std::uint8_t>(
-            sideOf(looks[2 * static_cast<std::uint32_t>(ids[lane]) + 1],
-                   (away >> lane & 1u) != 0) |
-            ((edge_on >> lane & 1u) != 0 ? edge_on_bit : 0u));
+      const Ints away =
+          projection.has_sides ? Ints(along * projection.outward > 0.0f) : Ints{};
+      const Ints edge_on = away & (along * along < sq_lengths * sq_cosine);
+      const Ints surface = gatherEven(looks + 1, id) >> 24 << 2;
+      storeBytes(sides + row * band.stride + column,
+                 surface | (away & looks_away_bit) | (edge_on & edge_on_bit));
     }
   }
 }
