@@ -66,7 +66,7 @@ public:
 
   /** \brief Milliseconds that the first surface of a request may take: with its frame,
    * a slider's step then takes about half as long again. */
-  static constexpr double usual_goal = 100.0;
+  static constexpr double usual_goal = 90.0;
 
   /** \param milliseconds what the first surface of a request may take */
   explicit SurfaceWorker(Extract extract, double milliseconds = usual_goal);
