@@ -166,6 +166,9 @@ fitRegister(const FitSample* samples,
                          is_cubic, reduced, influence, square * square) /
                      slope;
   store(determined ? coefficient[0] : zero / zero, result.value + first);
+  store(squareRoot(is_cubic ? cubic_leverage * cubic_variance
+                            : quadratic_leverage * quadratic_variance),
+        result.value_error + first);
   store(x, result.offset[0] + first);
   store(y, result.offset[1] + first);
   store(z, result.offset[2] + first);

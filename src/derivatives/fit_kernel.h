@@ -27,6 +27,7 @@ enum FitOrder { fit_failed = 0, fit_quadratic = 2, fit_cubic = 3 };
 struct alignas(64) FitResult {
   double value[fit_lanes];       ///< at the centre; NaN where the samples determine
                                  ///< neither polynomial
+  double value_error[fit_lanes]; ///< its standard error
   double offset[3][fit_lanes];   ///< from the centre to the zero level
   double gradient[3][fit_lanes]; ///< there; value per radius
   double hessian[6][fit_lanes];  ///< there: xx xy xz yy yz zz
@@ -38,7 +39,8 @@ struct alignas(64) FitResult {
   double residual[fit_lanes];    ///< weighted root mean square of the values' residuals
   double pivot[fit_lanes]; ///< least part of a term of the cubic that those before
                            ///< it do not give at the samples
-  int order[fit_lanes];    ///< a FitOrder; the others but pivot are undefined for 0
+  int order[fit_lanes]; ///< a FitOrder; but for value, its error and pivot the others
+                        ///< are undefined for 0
 };
 
 /** \brief Fit a cubic and, from the leading part of the same normal equations, a

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace pcl_uvol {
 
@@ -14,6 +15,9 @@ constexpr double steep_factor = 2.0;
 /** Part of the error of the values' fit that the other has at most: of two errors that
  * noise made, the smaller one is the more wrong. */
 constexpr double clearly_smaller = 0.8;
+
+/** Standard errors off the isovalue that tell the side. */
+constexpr double sure_of_side = 2.0;
 
 /** Copy what a lane tells of the zero level. */
 void
@@ -41,6 +45,12 @@ isBetter(const FitResult& fit, const FitResult& of_values, std::size_t lane)
           errorOfFit(fit, lane) < clearly_smaller * errorOfFit(of_values, lane));
 }
 
+double
+sureness(const FitResult& result, std::size_t lane)
+{
+  return std::abs(result.value[lane]) / result.value_error[lane];
+}
+
 } // namespace
 
 LogarithmicFits::LogarithmicFits(FitKernel fit, float isovalue)
@@ -66,6 +76,33 @@ LogarithmicFits::takeLogarithm(double above_isovalue) const
   return isovalue_ * std::log1p(above_isovalue / isovalue_);
 }
 
+bool
+LogarithmicFits::isSurerOfSide(const FitResult& fit,
+                               const FitResult& of_values,
+                               const Surroundings& surroundings,
+                               std::size_t lane) const
+{
+  const bool has_fallen =
+      fit.value[lane] / isovalue_ < 0.0 || of_values.value[lane] / isovalue_ < 0.0;
+  const double sure = sureness(fit, lane);
+  return has_fallen &&
+         (fit.order[lane] == fit_failed ||
+          surroundings.support != IsoSupport::Measured) &&
+         sure > std::max(sureness(of_values, lane), sure_of_side);
+}
+
+void
+LogarithmicFits::takeValue(const FitResult& fit,
+                           std::size_t lane,
+                           FitResult& result) const
+{
+  const double value = isovalue_ * std::exp(fit.value[lane] / isovalue_);
+  result.value[lane] = std::abs(value) <= std::numeric_limits<float>::max()
+                           ? fit.value[lane]
+                           : std::numeric_limits<double>::infinity();
+  result.value_error[lane] = fit.value_error[lane];
+}
+
 void
 LogarithmicFits::accept(const FitResult& fit,
                         std::size_t lane,
@@ -74,7 +111,7 @@ LogarithmicFits::accept(const FitResult& fit,
                         FitResult& result) const
 {
   copyLane(fit, lane, result);
-  result.value[lane] = isovalue_ * std::expm1(fit.value[lane] / isovalue_);
+  takeValue(fit, lane, result);
   for (std::size_t i = 0; i < samples.size(); ++i)
     samples[i].value[lane] = logarithms_[i].value[lane];
   ValueSpan& values = surroundings.values;
@@ -105,6 +142,8 @@ LogarithmicFits::improve(const int* weighted,
   for (std::size_t lane = 0; lane < fit_lanes; ++lane)
     if (is_steep[lane] && isBetter(fit, result, lane))
       accept(fit, lane, surroundings[lane], samples, result);
+    else if (is_steep[lane] && isSurerOfSide(fit, result, surroundings[lane], lane))
+      takeValue(fit, lane, result);
 }
 
 } // namespace pcl_uvol

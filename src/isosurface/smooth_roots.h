@@ -20,8 +20,9 @@ struct RootFit {
                 ///< the stretched space; infinite where samples are few
   float nearest_radius; ///< of the part of it that the nearest samples lie in: unless
                         ///< all of it is known, the radius means little
-  float value; ///< of the fit at the point as it was given, minus the isovalue, whether
-               ///< or not the root serves; NaN without a fit
+  float value; ///< at the point as it was given, minus the isovalue, of the fit or of
+               ///< one that is surer of the sign, whether or not the root serves; where
+               ///< that is one of logarithms, theirs; NaN without a fit
 };
 
 /** \brief Move isopoints onto fits through their nearest samples.

@@ -301,7 +301,10 @@ TEST(FitKernel, LeastSquaresAreThoseOfAnotherFactorisation)
       ASSERT_EQ(is_cubic ? fit_cubic : fit_quadratic, result.order[lane]);
       const Vector3 root = fit.polynomial.root(),
                     gradient = fit.polynomial.gradient(root);
-      const Real error = std::sqrt(fit.sqError(root)) / gradient.norm();
+      const Real error = std::sqrt(fit.sqError(root)) / gradient.norm(),
+                 value_error = std::sqrt(fit.sqError(center));
+      EXPECT_NEAR(fit.polynomial.value(center), result.value[lane], 1e-9);
+      EXPECT_NEAR(value_error, result.value_error[lane], 1e-9 * value_error);
       for (int axis = 0; axis < 3; ++axis) {
         EXPECT_NEAR(root[axis], result.offset[axis][lane], 1e-9);
         EXPECT_NEAR(gradient[axis], result.gradient[axis][lane], 1e-9);
@@ -424,6 +427,8 @@ numbersOf(const FitResult& result)
       numbers.push_back(gradient[lane]);
     for (const auto& hessian : result.hessian)
       numbers.push_back(hessian[lane]);
+    numbers.push_back(result.value[lane]);
+    numbers.push_back(result.value_error[lane]);
     numbers.push_back(result.error[lane]);
     numbers.push_back(result.bias[lane]);
     numbers.push_back(result.slope_error[lane]);

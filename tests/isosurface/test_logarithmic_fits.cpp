@@ -43,6 +43,7 @@ protected:
     made.order[lane] = fit_quadratic;
     made.error[lane] = 0.5 * of_values;
     made.value[lane] = -0.25;
+    made.value_error[lane] = 0.04;
     made.offset[2][lane] = 0.125;
     made.gradient[1][lane] = 3.0;
     made.hessian[5][lane] = 7.0;
@@ -87,8 +88,8 @@ TEST_F(LogarithmicFit, TakesThePlaceOfAllThatTellsOfTheSurface)
   EXPECT_EQ(0.02, result_.slope_error[lane]);
   EXPECT_EQ(0.3, result_.residual[lane]);
   EXPECT_EQ(0.1, result_.pivot[lane]) << "samples have it whatever their values";
-  // 2 log(f / 2) is -0.25 there.
-  EXPECT_DOUBLE_EQ(2.0 * std::exp(-0.125) - 2.0, result_.value[lane]);
+  EXPECT_EQ(-0.25, result_.value[lane]);
+  EXPECT_EQ(0.04, result_.value_error[lane]);
   const ValueSpan& values = surroundings_[lane].values;
   EXPECT_DOUBLE_EQ(2.0 * std::log(0.5 / 2.0), values.lowest);
   EXPECT_DOUBLE_EQ(2.0 * std::log(4.0 / 2.0), values.highest);
@@ -127,6 +128,109 @@ TEST_F(LogarithmicFit, IsNotTakenWhoseErrorIsNoNumber)
 {
   made.error[lane] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(isTaken());
+}
+
+/** The value at the centre tells its side, also where the root is another fit's. */
+class SideByLogarithms : public LogarithmicFit {
+protected:
+  SideByLogarithms()
+  {
+    made.order[lane] = fit_failed;
+    made.value_error[lane] = 0.1;    // 2.5 standard errors below
+    result_.value_error[lane] = 5.5; // 2 above
+    surroundings_[lane].support = IsoSupport::Measured;
+  }
+
+  double
+  findValue()
+  {
+    EXPECT_FALSE(isTaken());
+    return result_.value[lane];
+  }
+};
+
+TEST_F(SideByLogarithms, IsTheirsWhereTheyHaveNoRoot)
+{
+  const FitResult before = result_;
+  EXPECT_EQ(-0.25, findValue());
+  EXPECT_EQ(0.1, result_.value_error[lane]);
+  EXPECT_EQ(before.offset[2][lane], result_.offset[2][lane]);
+  EXPECT_EQ(before.error[lane], result_.error[lane]);
+  EXPECT_EQ(3.0f, samples_[1].value[lane]);
+  EXPECT_EQ(4.0, surroundings_[lane].values.highest);
+}
+
+TEST_F(SideByLogarithms, IsTheirsBeyondTheSamples)
+{
+  made.order[lane] = fit_cubic;
+  made.error[lane] = of_values;
+  EXPECT_EQ(11.0, findValue()) << "errors of roots decide among samples";
+  for (const IsoSupport support : {IsoSupport::Bridged, IsoSupport::Rim}) {
+    result_.value[lane] = 11.0;
+    result_.value_error[lane] = 5.5;
+    surroundings_[lane].support = support;
+    EXPECT_EQ(-0.25, findValue());
+  }
+}
+
+TEST_F(SideByLogarithms, IsThatOfTheSurerFit)
+{
+  result_.value_error[lane] = 11.0 / 2.51;
+  EXPECT_EQ(11.0, findValue());
+  result_.value_error[lane] = 11.0 / 2.49;
+  EXPECT_EQ(-0.25, findValue());
+}
+
+TEST_F(SideByLogarithms, IsNotTheirsByChance)
+{
+  result_.value_error[lane] = 100.0;
+  made.value_error[lane] = 0.25 / 1.99;
+  EXPECT_EQ(11.0, findValue());
+  made.value_error[lane] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(11.0, findValue());
+  made.value_error[lane] = 0.25 / 2.01;
+  EXPECT_EQ(-0.25, findValue());
+}
+
+TEST_F(SideByLogarithms, IsTheirsWhereBothFallOrOneDoes)
+{
+  made.value_error[lane] = 1e-3;
+  struct Case {
+    double logarithm, value;
+    bool is_taken;
+  };
+  for (const auto& [logarithm, value, is_taken] : {Case{0.25, 11.0, false},
+                                                   Case{-0.25, 11.0, true},
+                                                   Case{0.25, -11.0, true},
+                                                   Case{-0.25, -11.0, true}}) {
+    made.value[lane] = logarithm;
+    result_.value[lane] = value;
+    result_.value_error[lane] = 5.5;
+    EXPECT_EQ(is_taken ? logarithm : value, findValue());
+  }
+}
+
+TEST_F(SideByLogarithms, IsTheirsOfNegativeValues)
+{
+  surroundings_[lane].values = {-4.0, -0.5, {-3.0, -1.0}};
+  made.value_error[lane] = 1e-3;
+  made.value[lane] = 0.25; // nearer to 0 than the isovalue of -1
+  EXPECT_FALSE(isTaken(-1.0f));
+  EXPECT_EQ(0.25, result_.value[lane]);
+}
+
+TEST_F(LogarithmicFit, TellsOfNoValueBeyondFloat)
+{
+  const FitResult of_values_before = result_;
+  const Surroundings before = surroundings_[lane];
+  for (const double logarithm : {-1e3, 88.0, 89.0, 1e3}) {
+    made.value[lane] = logarithm;
+    result_ = of_values_before;
+    surroundings_[lane] = before;
+    ASSERT_TRUE(isTaken());
+    EXPECT_EQ(logarithm < 88.5 ? logarithm : std::numeric_limits<double>::infinity(),
+              result_.value[lane]);
+  }
 }
 
 TEST_F(LogarithmicFit, IsMadeOfValuesThatVaryByAFactor)
