@@ -18,7 +18,8 @@ namespace pcl_uvol::detail {
  */
 struct BandCell {
   Eigen::Vector3d center; ///< of its box
-  /** There, minus the isovalue: that of a fit, or where there is none the sample's. */
+  /** There, minus the isovalue: that of a fit, or where there is none the sample's;
+   * see RootFit. */
   double value;
   bool has_foot;          ///< else the members below are undefined
   Eigen::Vector3d foot;   ///< the point of the surface next to the centre
