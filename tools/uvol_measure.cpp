@@ -175,7 +175,7 @@ extractSurface(const Options& options,
       *samples, arguments.parameters.isosurface.field, options, report);
   memory.checkCloud(
       *samples, [&](double points, double step, pcl_uvol::MemoryForecast& forecast) {
-        pcl_uvol::addMemoryNeed(arguments.parameters, points, step, {}, forecast);
+        pcl_uvol::addMemoryNeed(arguments.parameters, points, step, {}, 0.0, forecast);
       });
   pcl_uvol::IsosurfacePipeline pipeline;
   pipeline.setInput(samples);

@@ -7,6 +7,7 @@
 #include "neighbors/sample_set.h"
 #include "pipeline/isopoint_choice.h"
 #include "pipeline/sample_hull.h"
+#include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/stage.h>
@@ -29,6 +30,15 @@ namespace pcl_uvol::detail {
 /** \brief Nodes of the lattice that gaps are filled on, at most: a surface that needs
  * more gets a coarser one. */
 constexpr std::size_t most_gap_nodes = std::size_t{1} << 20;
+
+/** \brief About how many nodes there are at most: as many as the box of the samples
+ * has, by their spacing, or as four times the area of its sides for every isovalue,
+ * since smooth surfaces have a quarter of these. \param parameters as resolved \return
+ * 0 where the field does not tell */
+PCL_UVOL_EXPORTS double
+estimateGapNodes(const CloudView& cloud,
+                 const IsosurfacePipelineParameters& parameters,
+                 unsigned threads);
 
 /** \brief Kriging as it bridges gaps: from 16 samples, an eighth of them from each
  * octant, since the nearest ones may all lie on one line. Without errors and gradients.

@@ -21,7 +21,7 @@ namespace {
 constexpr double mesh_bytes_per_isopoint = 1500.0;
 
 /** A node of the lattice that gaps are filled on: in tables, as a sample of the
- * surface, and in a tree; as many as there may be. */
+ * surface, and in a tree. */
 constexpr double bytes_per_gap_node = 300.0;
 
 /** One surface after the other from a level set of its own; isopoints remain. */
@@ -60,6 +60,7 @@ addMemoryNeed(const IsosurfacePipelineParameters& parameters,
               double points,
               double point_step,
               std::vector<SurfaceSize> surfaces,
+              double gap_nodes,
               MemoryForecast& forecast)
 {
   surfaces.resize(parameters.isosurface.isovalues.size());
@@ -72,8 +73,7 @@ addMemoryNeed(const IsosurfacePipelineParameters& parameters,
   if (parameters.isosurface.neighbors == NeighborSource::Exact)
     forecast.hold(ExactNeighbors::bytesPerSample() * points);
   if (parameters.fill_gaps) // a copy of the samples with more behind them
-    forecast.hold(point_step * points +
-                  bytes_per_gap_node * static_cast<double>(detail::most_gap_nodes));
+    forecast.hold(point_step * points + (point_step + bytes_per_gap_node) * gap_nodes);
   if (parameters.smooth)
     addLevelSets(parameters.level_set, surfaces, points, forecast);
   else
@@ -99,14 +99,18 @@ addMemoryNeed(const IsosurfacePipelineParameters& parameters,
 double
 IsosurfacePipeline::estimateMemory() const
 {
-  const IsosurfaceParameters parameters = resolveParameters();
+  IsosurfacePipelineParameters parameters = parameters_;
+  parameters.isosurface = resolveParameters();
+  const CloudView view = viewOf(samples_->cloud);
   const auto& cloud = samples_->cloud;
   MemoryForecast forecast(0.0);
-  addMemoryNeed(parameters_,
-                static_cast<double>(cloud.width) * static_cast<double>(cloud.height),
-                static_cast<double>(cloud.point_step),
-                estimateSurfaces(viewOf(cloud), parameters, threads_),
-                forecast);
+  addMemoryNeed(
+      parameters,
+      static_cast<double>(cloud.width) * static_cast<double>(cloud.height),
+      static_cast<double>(cloud.point_step),
+      estimateSurfaces(view, parameters.isosurface, threads_),
+      parameters.fill_gaps ? detail::estimateGapNodes(view, parameters, threads_) : 0.0,
+      forecast);
   return forecast.getPeak();
 }
 

@@ -13,12 +13,14 @@ namespace pcl_uvol {
 /** \brief Add the memory of IsosurfacePipeline::run() to a forecast.
  * \param points, point_step of the samples, which the forecast holds already
  * \param surfaces see estimateSurfaces; fewer than isovalues, or none, where their
- * sizes are not known */
+ * sizes are not known
+ * \param gap_nodes see estimateGapNodes; without gaps to fill they count for nothing */
 PCL_UVOL_EXPORTS void
 addMemoryNeed(const IsosurfacePipelineParameters& parameters,
               double points,
               double point_step,
               std::vector<SurfaceSize> surfaces,
+              double gap_nodes,
               MemoryForecast& forecast);
 
 } // namespace pcl_uvol

@@ -437,7 +437,7 @@ TEST(IsosurfacePipeline, ForecastsItsMemory)
     IsosurfacePipelineParameters parameters = makeParameters();
     parameters.smooth = smooth;
     pcl_uvol::MemoryForecast memory(0.0);
-    pcl_uvol::addMemoryNeed(parameters, points, 20.0, sizes, memory);
+    pcl_uvol::addMemoryNeed(parameters, points, 20.0, sizes, 0.0, memory);
     return memory.getPeak();
   };
   EXPECT_GT(forecast(false, 1e6), 50e6);

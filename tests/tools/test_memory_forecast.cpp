@@ -176,6 +176,25 @@ TEST(MemoryOfSelectedRows, IsThatOfThoseLeft)
   }
 }
 
+/** Kriged nodes in gaps are as many as the surface needs. */
+TEST(MemoryOfGaps, IsEnoughAndNotThreeTimesThat)
+{
+  if (uvol_test::isSanitized())
+    GTEST_SKIP() << "Sanitizers take memory of their own.";
+  const uvol_test::TemporaryFolder folder;
+  const std::string in = folder / "in.csv";
+  ASSERT_EQ(0,
+            runCommand("uvol_generate " + in + " -field sphere -samples casts -n 8000")
+                .exit_code);
+  const auto result = runCommand("uvol_isosurface " + in + ' ' + (folder / "out.ply") +
+                                 " -field sphere -iso 0 -fill-gaps");
+  ASSERT_EQ(0, result.exit_code) << result.err;
+  ASSERT_NE(std::string::npos, result.out.find(" samples predicted")) << result.out;
+  const auto [forecast, peak] = readMemory(result.out);
+  EXPECT_GE(forecast, peak);
+  EXPECT_LE(forecast, 3.0 * peak);
+}
+
 INSTANTIATE_TEST_SUITE_P(Tools,
                          MemoryForecast,
                          testing::ValuesIn(runs),

@@ -4,6 +4,7 @@
 #include "expressions/derived_source.h"
 #include "io/point_stream.h"
 #include "pipeline/extract_out_of_core.h"
+#include "pipeline/gap_filling.h"
 #include "pipeline/memory_need.h"
 #include "shared/measure_table.h"
 #include "uvol_isosurface/input_samples.h"
@@ -66,7 +67,7 @@ runInMemory(const Options& options,
   const auto work =
       [&](double points, double step, pcl_uvol::MemoryForecast& forecast) {
         addFieldsNeed(arguments, points, step, forecast);
-        pcl_uvol::addMemoryNeed(arguments.parameters, points, step, {}, forecast);
+        pcl_uvol::addMemoryNeed(arguments.parameters, points, step, {}, 0.0, forecast);
       };
   if (arguments.where.empty())
     memory.checkFile(arguments.input, work, arguments.makeLoadOptions());
@@ -84,11 +85,16 @@ runInMemory(const Options& options,
   resolved.isosurface = pipeline.resolveParameters(&choice);
   resolved.automatic_scale = false; // it is filled in now
   pipeline.setParameters(resolved);
-  const auto sizes = pcl_uvol::estimateSurfaces(
-      pcl_uvol::viewOf(samples->cloud), resolved.isosurface, options.threads());
+  const pcl_uvol::CloudView view = pcl_uvol::viewOf(samples->cloud);
+  const auto sizes =
+      pcl_uvol::estimateSurfaces(view, resolved.isosurface, options.threads());
+  const double gap_nodes =
+      resolved.fill_gaps
+          ? pcl_uvol::detail::estimateGapNodes(view, resolved, options.threads())
+          : 0.0;
   memory.checkCloud(
       *samples, [&](double points, double step, pcl_uvol::MemoryForecast& forecast) {
-        pcl_uvol::addMemoryNeed(parameters, points, step, sizes, forecast);
+        pcl_uvol::addMemoryNeed(parameters, points, step, sizes, gap_nodes, forecast);
         double isopoints = 0.0;
         for (const pcl_uvol::SurfaceSize& size : sizes)
           isopoints += size.isopoints;

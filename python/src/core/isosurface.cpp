@@ -2,6 +2,7 @@
 // The pipeline from samples to an isosurface, which keeps its tree.
 #include "common/memory.h"
 #include "core/bindings.h"
+#include "pipeline/gap_filling.h"
 #include "pipeline/memory_need.h"
 #include "shared/convert.h"
 #include "shared/interruptible.h"
@@ -187,7 +188,12 @@ private:
     const std::vector<SurfaceSize> most(parameters.isosurface.isovalues.size(),
                                         {points, most_edges * points});
     MemoryForecast forecast(0.0);
-    addMemoryNeed(parameters, points, samples_->cloud.point_step, most, forecast);
+    addMemoryNeed(parameters,
+                  points,
+                  samples_->cloud.point_step,
+                  most,
+                  static_cast<double>(detail::most_gap_nodes),
+                  forecast);
     if (forecast.getPeak() > static_cast<double>(availableMemory()))
       checkForecast(samples_->cloud.width, pipeline_.estimateMemory());
   }
