@@ -33,8 +33,9 @@ constexpr std::size_t most_gap_nodes = std::size_t{1} << 20;
 
 /** \brief About how many nodes there are at most: as many as the box of the samples
  * has, by their spacing, or as four times the area of its sides for every isovalue,
- * since smooth surfaces have a quarter of these. \param parameters as resolved \return
- * 0 where the field does not tell */
+ * since smooth surfaces have a quarter of these.
+ * \param parameters as resolved
+ * \return 0 where the field does not tell */
 PCL_UVOL_EXPORTS double
 estimateGapNodes(const CloudView& cloud,
                  const IsosurfacePipelineParameters& parameters,
