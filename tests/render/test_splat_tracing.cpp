@@ -163,6 +163,41 @@ TEST(SplatTracing, CracksBetweenSplatsDoNotShowTheInsideOfWhatIsBehind)
                      -1.0));
 }
 
+TEST(SplatTracing, OutlinesDoNotShowTheBacksOfSplatsBeyondThem)
+{
+  // Past the last of three that look to the eye, with a back not far behind them or
+  // far.
+  const Camera camera = looking({0.0, 0.0, 10.0}, {0.0, 0.0, 0.0}, 0.01, {0, 1, 0});
+  const auto redness = [&](double behind, const Vector& normal) {
+    std::vector<pcl_uvol::PointSplat> splats;
+    for (const double y : {-0.5, 0.0, 0.5})
+      splats.push_back(discAt({1.3, y, 0.0}, {-0.3, 0.0, 1.0}, 1.0));
+    splats.push_back(discAt({-0.5, 0.0, -behind}, normal, 1.0));
+    return channelAt(
+        trace(sceneOf(splats, {red, red, red, green}), camera, 1), 0, 0, 0);
+  };
+  EXPECT_NEAR(1.0, redness(0.5, {-1.0, 0.0, -1.0}), step);
+  EXPECT_NEAR(1.0, redness(3.0, {-1.0, 0.0, -1.0}), step);
+  EXPECT_NEAR(0.0, redness(6.0, {-1.0, 0.0, -1.0}), step);
+  EXPECT_NEAR(0.0, redness(0.5, {-1.0, 0.0, 1.0}), step); // not a back
+}
+
+TEST(SplatTracing, BacksAreNotAveragedWithFronts)
+{
+  // Over an edge of a right angle the splats of both sides stand out.
+  const Camera camera = looking({0.0, 0.0, 10.0}, {0.0, 0.0, 0.0}, 0.01, {0, 1, 0});
+  for (const double behind : {-0.2, 0.2}) { // the back is met first or last
+    const Image image =
+        trace(sceneOf({discAt({0.3, 0.0, 0.0}, {-0.6, 0.0, 0.8}, 1.0),
+                       discAt({-0.1, 0.0, -behind}, {-0.9, 0.0, -0.2}, 1.0)},
+                      {red, green}),
+              camera,
+              1);
+    EXPECT_NEAR(1.0, channelAt(image, 0, 0, 0), step) << behind;
+    EXPECT_NEAR(0.0, channelAt(image, 0, 0, 1), step) << behind;
+  }
+}
+
 /** A red disc of radius 2 that ends at 1 along its tangent and at -0.5 across, over a
  * green floor, tilted with it. */
 struct CutDisc {
@@ -384,12 +419,15 @@ TEST(SplatTracing, FindsWhatBruteForceFinds)
     const auto any = [&] {
       return Vector(random.uniform(), random.uniform(), random.uniform());
     };
+    const Camera camera = looking({2.0, -1.5, 1.2}, {0.5, 0.5, 0.5}, 40.0);
     for (std::size_t i = 0; i < count; ++i) {
       const double radius = (i % 10 == 0 ? 1.0 : 0.2) / std::cbrt(count);
-      splats.push_back(discAt(any(), any() - Vector::Constant(0.5), radius));
+      const Vector center = any(), normal = any() - Vector::Constant(0.5);
+      // Backs have rules of their own.
+      const bool looks_to_eye = normal.dot(camera.eye - center) > 0.0;
+      splats.push_back(discAt(center, looks_to_eye ? normal : -normal, radius));
       colors.push_back(static_cast<Rgba>(random.uniform() * 0xffffff) | 0xff000000u);
     }
-    const Camera camera = looking({2.0, -1.5, 1.2}, {0.5, 0.5, 0.5}, 40.0);
     constexpr int size = 48;
     const Image image = trace(sceneOf(splats, colors), camera, size);
     int seen = 0, different = 0;
@@ -594,6 +632,97 @@ TEST(SplatTracing, ARoughSurfaceShadesItselfNowhereInTheLight)
   EXPECT_LE(different, lit / 50);
 }
 
+/** A cube of discs whose edges they stand out over, tilted by noise. */
+pcl_uvol::SplatObject
+cubeOfSplats()
+{
+  std::vector<pcl_uvol::PointSplat> splats;
+  std::mt19937_64 engine(2);
+  std::uniform_real_distribution<double> place(-1.0, 1.0);
+  std::normal_distribution<double> off(0.0, 0.003);
+  for (int i = 0; i < 24000; ++i) {
+    const int axis = i % 3;
+    const double side = i % 2 == 0 ? 1.0 : -1.0;
+    Vector center(place(engine), place(engine), place(engine));
+    center[axis] = side + off(engine);
+    const Vector tilt(off(engine), off(engine), off(engine));
+    splats.push_back(discAt(center, side * Vector::Unit(axis) + 30.0 * tilt, 0.04));
+  }
+  return objectOf(splats);
+}
+
+/** Pixels of an object in the light that its own shadows make darker. */
+int
+countDarker(const pcl_uvol::SplatObject& object, const Vector& light)
+{
+  Scene scene;
+  scene.splats.push_back(object);
+  scene.splats[0].material = {};
+  scene.lights = {lightFrom(light, pcl_uvol::Light::Kind::Directional)};
+  pcl_uvol::RayTracer tracer;
+  tracer.setScene(scene);
+  tracer.setCamera(looking({2.6, -5.0, 3.6}, Vector::Zero(), 30.0));
+  tracer.setSize(400, 400);
+  Image with, without;
+  tracer.render(with);
+  tracer.settings().shadows = false;
+  tracer.render(without);
+  int lit = 0, darker = 0;
+  for (std::size_t i = 0; i < with.color.size(); i += 4) {
+    lit += without.color[i] > 60 && without.color[i] < 255 ? 1 : 0;
+    darker += without.color[i] > 60 && with.color[i] + 20 < without.color[i] ? 1 : 0;
+  }
+  EXPECT_GT(lit, 30000);
+  return darker;
+}
+
+TEST(SplatTracing, EdgesAndOutlinesHaveNoDarkSpecks)
+{
+  EXPECT_LE(countDarker(cubeOfSplats(), {0.6, -1.0, 0.9}), 30);
+  EXPECT_EQ(0, countDarker(sphereOfSplats(1500, 1e-4, 0.2), {3.6, -1.0, 0.9}));
+}
+
+/** Pixels that look otherwise where a ball of splats takes the place of one that is
+ * round, under a bright dome and between two balls that shine. */
+int
+countUnlikeBall(const pcl_uvol::SplatObject& ball,
+                const pcl_uvol::RayMaterial& material)
+{
+  Scene scene;
+  scene.background.kind = pcl_uvol::Background::Kind::Gradient;
+  scene.background.color = {0.2f, 0.1f, 0.0f};
+  scene.background.top = {0.9f, 1.0f, 1.0f};
+  scene.spheres.push_back({{1.5, -1.0, 0.5}, 0.7, glowing(1.0f, 0.0f, 0.0f)});
+  scene.spheres.push_back({{-1.5, 1.0, -0.5}, 0.7, glowing(0.0f, 0.0f, 0.0f)});
+  scene.spheres.push_back({{0.0, 0.0, 0.0}, 1.0, material});
+  const Camera camera = looking({0.0, -6.0, 1.5}, Vector::Zero(), 22.0);
+  constexpr int size = 200;
+  const Image truth = trace(scene, camera, size);
+  scene.spheres.pop_back();
+  scene.splats.push_back(ball);
+  scene.splats[0].material = material;
+  const Image image = trace(scene, camera, size);
+  int unlike = 0;
+  for (std::size_t i = 0; i < image.color.size(); i += 4)
+    unlike += std::abs(image.color[i] - truth.color[i]) > 12 ? 1 : 0;
+  return unlike;
+}
+
+TEST(SplatTracing, MirrorsAndGlassOfSplatsAreThoseOfABall)
+{
+  // Splats with normals that turn, and flat ones, which know of no thickness.
+  std::vector<pcl_uvol::PointSplat> flat;
+  const auto points = makeSphere(60000, 1);
+  for (const pcl::PointNormal& point : *points)
+    flat.push_back(discAt(point.getNormalVector3fMap().cast<double>(),
+                          point.getNormalVector3fMap().cast<double>(),
+                          0.03));
+  for (const auto& ball : {sphereOfSplats(60000, 1e-4, 0.2), objectOf(flat)}) {
+    EXPECT_LE(countUnlikeBall(ball, clear(0.9, 0.0)), 100);
+    EXPECT_LE(countUnlikeBall(ball, clear(0.0, 0.9, 1.5)), 300);
+  }
+}
+
 TEST(SplatTracing, AWallShadesTheFloorBesideIt)
 {
   // One object: what is near and on the same surface is left out, walls are not.
@@ -609,6 +738,38 @@ TEST(SplatTracing, AWallShadesTheFloorBesideIt)
   };
   EXPECT_NEAR(0.0, brightness({1.0, 0.0, 1.0}), step);
   EXPECT_NEAR(std::sqrt(0.5), brightness({-1.0, 0.0, 1.0}), step);
+}
+
+TEST(SplatTracing, AWallOfManySplatsShadesTheFloorUpToItsFoot)
+{
+  std::vector<pcl_uvol::PointSplat> splats;
+  constexpr double spacing = 0.03, radius = 0.04, height = 0.6;
+  for (double y = -1.0; y < 1.0; y += spacing) {
+    for (double x = -1.0; x < 0.0; x += spacing)
+      splats.push_back(discAt({x, y, 0.0}, {0, 0, 1}, radius));
+    for (double z = 0.0; z < height; z += spacing)
+      splats.push_back(discAt({0.0, y, z}, {-1, 0, 0}, radius));
+  }
+  Scene scene;
+  scene.splats.push_back(objectOf(splats));
+  scene.splats[0].material.ambient = 0.0;
+  scene.splats[0].material.diffuse = 1.0;
+  scene.lights = {lightFrom({1.0, 0.0, 1.0}, pcl_uvol::Light::Kind::Directional)};
+  // A strip of the floor, from its lit part to just before the wall.
+  const Camera camera = looking({-0.45, 0.0, 10.0}, {-0.45, 0.0, 0.0}, 5.0, {0, 1, 0});
+  constexpr int size = 200;
+  const Image image = trace(scene, camera, size);
+  int unlike = 0;
+  for (int row = 0; row < size; ++row)
+    for (int column = 0; column < size; ++column) {
+      const Vector d = rayThrough(camera, size, column, row);
+      const double x = camera.eye.x() - camera.eye.z() / d.z() * d.x();
+      if (x > -radius || std::abs(x + height) < radius)
+        continue;
+      const double expected = x > -height ? 0.0 : std::sqrt(0.5);
+      unlike += std::abs(channelAt(image, column, row) - expected) > step ? 1 : 0;
+    }
+  EXPECT_EQ(0, unlike);
 }
 
 TEST(SplatTracing, CamerasFarAwaySeeAsSharp)

@@ -102,6 +102,12 @@ RayShader::random()
   return uniformAt(ray_number_, draws_++, 0);
 }
 
+RayStart
+RayShader::startOn(const Seen& seen)
+{
+  return {seen.hit.splat_object, seen.plane_normal, seen.from_outside};
+}
+
 Eigen::Vector3d
 RayShader::backgroundAt(double height) const
 {
@@ -126,10 +132,9 @@ RayShader::visibility(const Light& light,
   const auto transmission = [&](const Eigen::Vector3d& to_source) {
     const double distance = to_source.norm();
     ++counts_.shadow;
-    return world_.transmission({start, to_source / distance, eye_},
+    return world_.transmission({start, to_source / distance, eye_, startOn(seen)},
                                is_point ? distance
-                                        : std::numeric_limits<double>::infinity(),
-                               {seen.hit.splat_object, seen.plane_normal});
+                                        : std::numeric_limits<double>::infinity());
   };
   if (light.radius == 0.0)
     return transmission(to_center);
@@ -163,9 +168,8 @@ RayShader::openness(const Seen& seen)
                                       std::sqrt(1.0 - sq_r) * seen.normal;
     ++counts_.shadow;
     open += direction.dot(seen.plane_normal) > 0.0 &&
-                    !world_.isBlocked({start, direction, eye_},
-                                      occlusion_distance_,
-                                      {seen.hit.splat_object, seen.plane_normal})
+                    !world_.isBlocked({start, direction, eye_, startOn(seen)},
+                                      occlusion_distance_)
                 ? 1
                 : 0;
   }
@@ -219,8 +223,12 @@ RayShader::send(const Seen& seen,
   if (rise < least_rise)
     leaving = (direction + (least_rise - rise) * out).normalized();
   ++counts_.secondary;
-  pending_.push_back(
-      {{seen.hit.position + seen.hit.lift * out, leaving, eye_}, weight, depth});
+  pending_.push_back({{seen.hit.position + seen.hit.lift * out,
+                       leaving,
+                       eye_,
+                       {seen.hit.splat_object, out, seen.from_outside == to_same_side}},
+                      weight,
+                      depth});
 }
 
 void

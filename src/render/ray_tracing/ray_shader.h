@@ -60,6 +60,10 @@ private:
     bool from_outside;
   };
 
+  /** Of a ray to the side that is seen. */
+  static RayStart
+  startOn(const Seen& seen);
+
   Eigen::Vector3d
   backgroundAt(double height) const;
 

@@ -32,12 +32,18 @@ constexpr float same_surface = 0.5f;
  * less than its radius, and not farther behind one another than that part of it, have a
  * crack between them: on rough surfaces discs are tilted against each other. @{ */
 constexpr std::size_t fewest_around = 3;
-constexpr float slip = 2.0f, crack_depth = 3.0f;
+constexpr float slip = 2.0f, crack_depth = 4.0f;
 /** @} */
 
-/** Cosine of the angle to the mean direction: a splat beyond it lies on the other side.
- */
-constexpr float opposite = -0.2f;
+/** What lies not farther behind splats than across a crack is seen from outside where a
+ * ray misses them by less than half their radius: at outlines. Open surfaces end a bit
+ * farther on. */
+constexpr float slip_at_outlines = 1.5f;
+
+/** They lie on all sides if no angle between neighbours, seen along the ray, is wider:
+ * discs reach beyond the hull of their centres. @{ */
+constexpr float full_turn = 6.2831853f, widest_gap = 0.6f * full_turn;
+/** @} */
 
 /** Room around splats, for rounding: in parts of their distances to the centre. */
 constexpr float box_room = 1e-6f;
@@ -112,6 +118,34 @@ fieldAt(const SplatRecord& splat, const Eigen::Vector3f& place)
   return normal + (splat.tilt[0] + splat.slope[0] * offset.dot(u)) * u +
          (splat.tilt[1] + splat.slope[1] * offset.dot(v)) * v;
 }
+
+/** What the splats that a ray meets together look like. */
+struct Blend {
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero(), color = normal;
+  float weights = 0.0f, thickness = 0.0f;
+  const SplatHit* nearest = nullptr; ///< whose centre is, in radii
+  float least_offset = std::numeric_limits<float>::infinity();
+
+  /** \param place where the ray meets it
+   * \param reach offset at which the weight is 0 */
+  void
+  add(const SplatRecord& splat,
+      const SplatHit& hit,
+      const Eigen::Vector3f& place,
+      float reach)
+  {
+    const float offset = std::sqrt(hit.sq_offset) / splat.radius;
+    if (offset < least_offset) {
+      least_offset = offset;
+      nearest = &hit;
+    }
+    const float weight = std::max(0.0f, reach - offset);
+    normal += weight * fieldAt(splat, place);
+    color += weight * toVector(splat.color);
+    weights += weight;
+    thickness = std::max(thickness, splat.thickness);
+  }
+};
 
 /** Of a splat of a leaf. */
 void
@@ -218,7 +252,8 @@ SplatTree::findEntry(const Ray& ray, double near, double far) const
 }
 
 TreeRay
-SplatTree::localRay(const Ray& ray, double entry, double near, double far) const
+SplatTree::localRay(
+    const Ray& ray, bool leaves_surface, double entry, double near, double far) const
 {
   TreeRay local{};
   const Eigen::Vector3d origin = ray.origin + entry * ray.direction - center_;
@@ -231,24 +266,20 @@ SplatTree::localRay(const Ray& ray, double entry, double near, double far) const
   local.culls = ray.eye != nullptr && !two_sided_;
   for (int axis = 0; local.culls && axis < 3; ++axis)
     local.eye[axis] = static_cast<float>((*ray.eye)[axis] - center_[axis]);
+  local.leaves_surface = leaves_surface;
+  for (int axis = 0; leaves_surface && axis < 3; ++axis)
+    local.own_normal[axis] = static_cast<float>(ray.start.normal[axis]);
+  local.own_side = ray.start.is_outside ? 1.0f : -1.0f;
+  local.from_start = static_cast<float>(entry);
   return local;
 }
 
 bool
-SplatTree::isBlocked(const Ray& ray,
-                     double near,
-                     double far,
-                     const Eigen::Vector3d* own_normal) const
+SplatTree::isBlocked(const Ray& ray, bool leaves_surface, double near, double far) const
 {
   const auto entry = findEntry(ray, near, far);
-  if (!entry)
-    return false;
-  TreeRay local = localRay(ray, *entry, near, far);
-  if (own_normal != nullptr)
-    for (int axis = 0; axis < 3; ++axis)
-      local.own_normal[axis] = static_cast<float>((*own_normal)[axis]);
-  local.from_start = static_cast<float>(*entry);
-  return kernels_->isBlocked(arrays(), local);
+  return entry && kernels_->isBlocked(arrays(),
+                                      localRay(ray, leaves_surface, *entry, near, far));
 }
 
 SplatTree::HitRange
@@ -306,19 +337,34 @@ SplatTree::surround(const TreeRay& ray,
                     const std::vector<SplatHit>& hits,
                     const HitRange& range) const
 {
-  const auto sideOf = [&](const SplatHit& hit) -> Eigen::Vector3f {
-    const Eigen::Vector3f place =
-        toVector(ray.origin) + hit.distance * toVector(ray.direction);
-    return (toVector(splats_[hit.splat].center) - place).normalized();
-  };
-  const auto begin = hits.begin() + static_cast<std::ptrdiff_t>(range.begin),
-             end = hits.begin() + static_cast<std::ptrdiff_t>(range.end);
-  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-  for (auto hit = begin; hit != end; ++hit)
-    sum += sideOf(*hit);
-  const Eigen::Vector3f most = sum.normalized();
-  return std::any_of(
-      begin, end, [&](const auto& hit) { return sideOf(hit).dot(most) < opposite; });
+  const Eigen::Vector3f direction = toVector(ray.direction);
+  const Eigen::Vector3f u = direction.unitOrthogonal(), v = direction.cross(u);
+  std::vector<float> angles;
+  for (std::size_t i = range.begin; i < range.end; ++i) {
+    const Eigen::Vector3f side =
+        toVector(splats_[hits[i].splat].center) - toVector(ray.origin);
+    angles.push_back(std::atan2(side.dot(v), side.dot(u)));
+  }
+  std::sort(angles.begin(), angles.end());
+  float gap = angles.front() + full_turn - angles.back();
+  for (std::size_t i = 1; i < angles.size(); ++i)
+    gap = std::max(gap, angles[i] - angles[i - 1]);
+  return gap < widest_gap;
+}
+
+bool
+SplatTree::isCloseBehind(const SplatHit& back,
+                         const std::vector<SplatHit>& hits,
+                         const HitRange& range) const
+{
+  return std::any_of(hits.begin() + static_cast<std::ptrdiff_t>(range.begin),
+                     hits.begin() + static_cast<std::ptrdiff_t>(range.end),
+                     [&](const SplatHit& hit) {
+                       const float radius = splats_[hit.splat].radius;
+                       const float reach = slip_at_outlines * radius;
+                       return back.distance - hit.distance < crack_depth * radius &&
+                              hit.sq_offset < reach * reach;
+                     });
 }
 
 SplatTree::HitRange
@@ -337,13 +383,16 @@ SplatTree::findAround(const TreeRay& ray,
                      hits.begin() + static_cast<std::ptrdiff_t>(range.end),
                      [&](const SplatHit& hit) { return isBehind(ray, hit); });
   range.end = begin + static_cast<std::size_t>(fronts_end - from);
-  if (range.end - begin < fewest_around || !surround(ray, hits, range))
+  const bool is_crack =
+      range.end - begin >= fewest_around && surround(ray, hits, range);
+  if (!is_crack && !isCloseBehind(first, hits, range))
     range.end = begin;
   return range;
 }
 
 bool
 SplatTree::intersect(const Ray& ray,
+                     bool leaves_surface,
                      double near,
                      double far,
                      std::vector<SplatHit>& hits,
@@ -352,7 +401,7 @@ SplatTree::intersect(const Ray& ray,
   const auto entry = findEntry(ray, near, far);
   if (!entry)
     return false;
-  TreeRay local = localRay(ray, *entry, near, far);
+  TreeRay local = localRay(ray, leaves_surface, *entry, near, far);
   const bool culls = std::exchange(local.culls, false); // backs tell of cracks
   HitRange range = collect(local, same_surface, 0, hits);
   if (range.begin == range.end)
@@ -378,36 +427,37 @@ SplatTree::intersect(const Ray& ray,
     reach = 1.0f;
   }
   const Eigen::Vector3f side = toVector(splats_[first->splat].normal);
+  const auto isOfSurface = [&, limit = limit](const SplatHit& other) {
+    return other.distance <= limit &&
+           toVector(splats_[other.splat].normal).dot(side) > 0.0f;
+  };
+  const auto begin = hits.begin() + static_cast<std::ptrdiff_t>(range.begin),
+             end = hits.begin() + static_cast<std::ptrdiff_t>(range.end);
+  const bool has_front =
+      !isBehind(local, *first) || std::any_of(begin, end, [&](const SplatHit& other) {
+        return !isBehind(local, other) && isOfSurface(other);
+      });
   const Eigen::Vector3f origin = toVector(local.origin),
                         direction = toVector(local.direction);
-  Eigen::Vector3f normal = Eigen::Vector3f::Zero(), color = normal;
-  float weights = 0.0f, nearest = 2.0f, thickness = 0.0f;
-  const SplatHit* chosen = first;
-  for (std::size_t i = range.begin; i < range.end; ++i) {
-    const SplatHit& other = hits[i];
-    const SplatRecord& splat = splats_[other.splat];
-    if (other.distance > limit || !(toVector(splat.normal).dot(side) > 0.0f))
+  Blend blend;
+  blend.nearest = first;
+  for (auto other = begin; other != end; ++other) {
+    // Beside fronts, backs are of the side beyond an edge, over which they stand out.
+    if (!isOfSurface(*other) || (has_front && isBehind(local, *other)))
       continue;
-    const float offset = std::sqrt(other.sq_offset) / splat.radius;
-    if (offset < nearest) {
-      nearest = offset;
-      chosen = &other;
-    }
-    const float weight = std::max(0.0f, reach - offset);
-    normal += weight * fieldAt(splat, origin + other.distance * direction);
-    color += weight * toVector(splat.color);
-    weights += weight;
-    thickness = std::max(thickness, splat.thickness);
+    blend.add(
+        splats_[other->splat], *other, origin + other->distance * direction, reach);
   }
-  const SplatRecord& splat = splats_[chosen->splat];
-  const bool has_weight = weights > 0.0f; // else on the border of a single splat
-  hit.distance = *entry + chosen->distance;
-  hit.thickness = thickness;
+  const SplatRecord& splat = splats_[blend.nearest->splat];
+  const bool has_weight = blend.weights > 0.0f; // else on the border of a single splat
+  hit.distance = *entry + blend.nearest->distance;
+  hit.thickness = blend.thickness;
   hit.bend = std::min(bendOf(splat), 1.0f);
   hit.plane_normal = toVector(splat.normal).cast<double>();
-  hit.normal = has_weight ? Eigen::Vector3d(normal.cast<double>().normalized())
+  hit.normal = has_weight ? Eigen::Vector3d(blend.normal.cast<double>().normalized())
                           : hit.plane_normal;
-  hit.color = (has_weight ? Eigen::Vector3f(color / weights) : toVector(splat.color))
+  hit.color = (has_weight ? Eigen::Vector3f(blend.color / blend.weights)
+                          : toVector(splat.color))
                   .cast<double>();
   return true;
 }

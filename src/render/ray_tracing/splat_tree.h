@@ -34,12 +34,20 @@ struct alignas(64) SplatRecord {
   Rgba color;
 };
 
+/** \brief The surface that a ray starts on. */
+struct RayStart {
+  int splat_object = -1; ///< in the scene; -1: it is not one of splats
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero(); ///< on the side of the ray
+  bool is_outside = true;                           ///< this side
+};
+
 /** \brief A ray in the scene. */
 struct Ray {
   Eigen::Vector3d origin;
   Eigen::Vector3d direction; ///< of length 1
   /** Splats that look away from it are not met; null: all are. */
   const Eigen::Vector3d* eye = nullptr;
+  RayStart start = {};
 };
 
 /** \brief Where a ray meets a surface of splats. */
@@ -61,24 +69,22 @@ public:
   SplatTree(const SplatObject& object, unsigned threads, StepTimer& step);
 
   /** \brief The first hit of a ray.
+   * \param leaves_surface it starts on this surface: splats that lie over one another
+   * there are not met near the start
    * \param hits work space, which grows to what rays need
    * \return false if there is none before far */
   bool
   intersect(const Ray& ray,
+            bool leaves_surface,
             double near,
             double far,
             std::vector<SplatHit>& hits,
             SplatSurfaceHit& hit) const;
 
   /** \brief True if something lies between two distances on a ray.
-   * \param own_normal of the surface of this tree that the ray starts on, on the side
-   * of the ray: splats of this surface near the start count for nothing; null: it
-   * starts elsewhere */
+   * \param leaves_surface as in intersect() */
   bool
-  isBlocked(const Ray& ray,
-            double near,
-            double far,
-            const Eigen::Vector3d* own_normal) const;
+  isBlocked(const Ray& ray, bool leaves_surface, double near, double far) const;
 
   /** \brief A ball around all splats. */
   BoundingSphere
@@ -128,6 +134,13 @@ private:
            const std::vector<SplatHit>& hits,
            const HitRange& range) const;
 
+  /** True if a splat lies not far behind one in front of it, and the ray hardly misses
+   * that one. */
+  bool
+  isCloseBehind(const SplatHit& back,
+                const std::vector<SplatHit>& hits,
+                const HitRange& range) const;
+
   /** Distance at which a ray comes into the ball around all splats, 0 within it;
    * nothing if it does not. */
   std::optional<double>
@@ -135,7 +148,8 @@ private:
 
   /** The ray from its entry on: float would not hold distances from far away. */
   TreeRay
-  localRay(const Ray& ray, double entry, double near, double far) const;
+  localRay(
+      const Ray& ray, bool leaves_surface, double entry, double near, double far) const;
 
   /** \param rims of the splats, in their order
    * \param tree that tells which splats are in which leaf */

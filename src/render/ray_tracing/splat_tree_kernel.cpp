@@ -50,6 +50,30 @@ enum class Order {
   Any           ///< any hit will do, and most rays meet none
 };
 
+/** In radii of a splat: nearer to it a ray that comes out of the surface it starts on,
+ * or that goes into it, has not left this surface yet. Splats are tangent planes: where
+ * the surface is convex they stand out from it, over the places beside them. @{ */
+constexpr float reach_outwards = 3.0f, reach_inwards = 1.0f;
+/** @} */
+
+/** Least cosine of the normals of two splats of one surface, for a ray that comes out
+ * or goes in. @{ */
+constexpr float aligned_outwards = 0.25f, aligned_inwards = 0.7f;
+/** @} */
+
+/** In radii of a splat with any normal: what stands out over an edge of the surface. A
+ * ray that comes out of it started outside all the same, and one from a place whose
+ * tangent plane its centre does not rise above meets what is not there: walls stand on
+ * the plane. @{ */
+constexpr float reach_at_edges = 1.5f, reach_from_below = 2.0f, least_height = 0.1f;
+/** @} */
+
+constexpr float
+square(float value)
+{
+  return value * value;
+}
+
 template <Order order>
 class Traversal {
 public:
@@ -127,6 +151,8 @@ public:
       }
       Ints is_met = (sq <= ray_.sq_reach * load<Floats>(leaf.sq_radius + first)) &
                     (t >= fill(ray_.near)) & (t <= fill(far_));
+      if (ray_.leaves_surface)
+        is_met &= ~isOwn(leaf, first, t, across);
       if (ray_.culls)
         is_met &= looksToEye(leaf, first);
       store(distance + first, t);
@@ -162,6 +188,35 @@ private:
                 << first;
     }
     return within;
+  }
+
+  /** Which splats of a leaf are of the surface that the ray starts on.
+   * \param first that is looked at
+   * \param rise cosine of the ray to their normals */
+  Ints
+  isOwn(const TreeLeaf& leaf,
+        int first,
+        const Floats& distance,
+        const Floats& rise) const
+  {
+    Floats alignment{}, height{};
+    for (int axis = 0; axis < 3; ++axis) {
+      alignment += load<Floats>(leaf.normal[axis] + first) * ray_.own_normal[axis];
+      height += (load<Floats>(leaf.center[axis] + first) - ray_.origin[axis]) *
+                ray_.own_normal[axis];
+    }
+    const Floats sq_alignment = alignment * alignment, way = distance + ray_.from_start,
+                 sq_way = way * way, sq_radius = load<Floats>(leaf.sq_radius + first);
+    const Ints outwards = (sq_alignment > fill(square(aligned_outwards))) &
+                          (sq_way < square(reach_outwards) * sq_radius);
+    const Ints inwards = (sq_alignment > fill(square(aligned_inwards))) &
+                         (sq_way < square(reach_inwards) * sq_radius);
+    const Ints at_edge = sq_way < square(reach_at_edges) * sq_radius;
+    const Ints is_low =
+        (height < fill(0.0f)) | (height * height < square(least_height) * sq_radius);
+    const Ints from_below = is_low & (sq_way < square(reach_from_below) * sq_radius);
+    return from_below |
+           (ray_.own_side * rise > fill(0.0f) ? outwards | at_edge : inwards);
   }
 
   /** Of the splats of a leaf from the first one on. */
@@ -255,34 +310,6 @@ collect(const TreeArrays& tree,
   return count;
 }
 
-/** In radii of a splat: nearer to it a ray that comes out of the surface it starts on,
- * or that goes into it, has not left this surface yet. Splats are tangent planes: where
- * the surface is convex they stand out from it, over the places beside them. @{ */
-constexpr float reach_outwards = 3.0f, reach_inwards = 1.0f;
-/** @} */
-
-/** Least cosine of the normals of two splats of one surface, for a ray that comes out
- * or goes in. @{ */
-constexpr float aligned_outwards = 0.25f, aligned_inwards = 0.7f;
-/** @} */
-
-/** True for a splat of the surface that the ray starts on, near its start. */
-bool
-isOwn(const TreeRay& ray, const TreeLeaf& leaf, int splat, float distance)
-{
-  float alignment = 0.0f, rise = 0.0f;
-  for (int axis = 0; axis < 3; ++axis) {
-    alignment += leaf.normal[axis][splat] * ray.own_normal[axis];
-    rise += leaf.normal[axis][splat] * ray.direction[axis];
-  }
-  const bool comes_out = alignment * rise > 0.0f;
-  const float least = comes_out ? aligned_outwards : aligned_inwards;
-  const float reach = comes_out ? reach_outwards : reach_inwards;
-  const float way = distance + ray.from_start;
-  return alignment * alignment > least * least &&
-         way * way < reach * reach * leaf.sq_radius[splat];
-}
-
 bool
 isBlocked(const TreeArrays& tree, const TreeRay& ray)
 {
@@ -290,12 +317,7 @@ isBlocked(const TreeArrays& tree, const TreeRay& ray)
   bool is_blocked = false;
   alignas(64) float distance[tree_width], sq_offset[tree_width];
   traversal.run([&](std::uint32_t number) {
-    const TreeLeaf& leaf = tree.leaves[number];
-    std::uint32_t met = traversal.meet(number, distance, sq_offset);
-    for (; met != 0 && !is_blocked; met &= met - 1) {
-      const int i = __builtin_ctz(met);
-      is_blocked = !isOwn(ray, leaf, i, distance[i]);
-    }
+    is_blocked = traversal.meet(number, distance, sq_offset) != 0;
     return !is_blocked;
   });
   return is_blocked;

@@ -52,9 +52,12 @@ struct TreeRay {
   float origin[3], direction[3]; ///< of length 1
   float near, far;               ///< distances between which it is looked at
   float sq_reach = 1.0f;         ///< squares of radii count as so many times as large
-  /** Normal, on the side of the ray, of the surface of splats that it starts on, and
-   * the distance from there to the origin; 0: it starts elsewhere. @{ */
-  float own_normal[3], from_start;
+  /** It starts on the surface of splats that has this normal, on the side of the ray,
+   * and so far before the origin: splats of this surface near the start are not met. @{
+   */
+  bool leaves_surface = false;
+  float own_normal[3]{}, from_start = 0.0f;
+  float own_side = 1.0f; ///< -1: the normal looks into what the surface encloses
   /** @} */
   /** Splats that look away from the eye are not met. @{ */
   bool culls = false;
@@ -82,8 +85,7 @@ struct SplatTreeKernels {
                          SplatHit* hits,
                          std::size_t room);
 
-  /** \brief True if the ray meets any splat but those that lie over one another in the
-   * surface it starts on. */
+  /** \brief True if the ray meets any splat. */
   bool (*isBlocked)(const TreeArrays& tree, const TreeRay& ray);
 };
 

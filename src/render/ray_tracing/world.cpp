@@ -66,6 +66,12 @@ colorOf(const PlaneObject& plane, const Eigen::Vector3d& position)
   return toVector(plane.material.color);
 }
 
+bool
+startsOn(const Ray& ray, std::size_t splat_object)
+{
+  return ray.start.splat_object == static_cast<int>(splat_object);
+}
+
 /** A ball around balls: about the centre of their box. */
 BoundingSphere
 findBounds(const Scene& scene, const std::vector<SplatTree>& trees)
@@ -136,7 +142,8 @@ World::intersect(const Ray& ray, std::vector<SplatHit>& hits, SurfaceHit& hit) c
   hit.plane_normal = hit.normal;
   SplatSurfaceHit splats;
   for (std::size_t i = 0; i < trees_.size(); ++i)
-    if (trees_[i].intersect(ray, near(), hit.distance, hits, splats)) {
+    if (trees_[i].intersect(
+            ray, startsOn(ray, i), near(), hit.distance, hits, splats)) {
       hit.distance = splats.distance;
       hit.normal = splats.normal;
       hit.plane_normal = splats.plane_normal;
@@ -151,18 +158,14 @@ World::intersect(const Ray& ray, std::vector<SplatHit>& hits, SurfaceHit& hit) c
 }
 
 bool
-World::isBlockedBy(std::size_t splat_object,
-                   const Ray& ray,
-                   double distance,
-                   const RayStart& start) const
+World::isBlockedBy(std::size_t splat_object, const Ray& ray, double distance) const
 {
-  const bool is_own = start.splat_object == static_cast<int>(splat_object);
   return trees_[splat_object].isBlocked(
-      ray, near(), distance, is_own ? &start.normal : nullptr);
+      ray, startsOn(ray, splat_object), near(), distance);
 }
 
 double
-World::transmission(const Ray& ray, double distance, const RayStart& start) const
+World::transmission(const Ray& ray, double distance) const
 {
   double part = 1.0;
   for (const SphereObject& sphere : scene_.spheres)
@@ -172,16 +175,16 @@ World::transmission(const Ray& ray, double distance, const RayStart& start) cons
     if (meetPlane(plane, ray).value_or(distance) < distance)
       part *= plane.material.transparency;
   for (std::size_t i = 0; i < trees_.size() && part > 0.0; ++i)
-    if (isBlockedBy(i, ray, distance, start))
+    if (isBlockedBy(i, ray, distance))
       part *= scene_.splats[i].material.transparency;
   return part;
 }
 
 bool
-World::isBlocked(const Ray& ray, double distance, const RayStart& start) const
+World::isBlocked(const Ray& ray, double distance) const
 {
   for (std::size_t i = 0; i < trees_.size(); ++i)
-    if (isBlockedBy(i, ray, distance, start))
+    if (isBlockedBy(i, ray, distance))
       return true;
   const auto meets = [&](const std::optional<double>& met) {
     return met.value_or(distance) < distance;

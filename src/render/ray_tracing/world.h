@@ -30,13 +30,6 @@ struct SurfaceHit {
   int splat_object;
 };
 
-/** \brief The surface that a shadow ray starts on, and its normal on the side of the
- * ray. */
-struct RayStart {
-  int splat_object; ///< as in SurfaceHit
-  Eigen::Vector3d normal;
-};
-
 /** \brief The objects of a scene. */
 class World {
 public:
@@ -64,19 +57,16 @@ public:
   /** \brief Part of the light that comes along a ray from that distance: every object
    * in between lets its transparency through. */
   double
-  transmission(const Ray& ray, double distance, const RayStart& start) const;
+  transmission(const Ray& ray, double distance) const;
 
   /** \brief True if anything lies on a ray up to that distance. */
   bool
-  isBlocked(const Ray& ray, double distance, const RayStart& start) const;
+  isBlocked(const Ray& ray, double distance) const;
 
 private:
   /** As SplatTree::isBlocked. */
   bool
-  isBlockedBy(std::size_t splat_object,
-              const Ray& ray,
-              double distance,
-              const RayStart& start) const;
+  isBlockedBy(std::size_t splat_object, const Ray& ray, double distance) const;
 
   /** A splat that a ray starts on, to rounding, is not met. */
   double

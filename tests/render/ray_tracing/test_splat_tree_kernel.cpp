@@ -265,14 +265,48 @@ TEST(SplatTreeKernel, LeavesOutWhatLiesFarBehind)
 }
 
 /** A single disc of radius 0.1, and a ray along x that starts on a surface of splats.
- * \param alignment cosine of the normals of this surface and of the disc
- * \param distance to the disc */
+ */
+struct DiscBesideStart {
+  double alignment; ///< cosine of the normals of this surface and of the disc
+  double radii;     ///< to where the ray meets the disc
+  bool goes_in;
+  double shift; ///< of the centre from there, along the plane of the disc, in radii
+  double side;  ///< of both surfaces that is outside: 1 for the ray's, or -1
+
+  Vector3d
+  normal() const
+  {
+    return Vector3d(goes_in ? -1.0 : 1.0, 1.0, 0.0).normalized();
+  }
+
+  Vector3d
+  ownNormal() const
+  {
+    return alignment * normal() +
+           std::sqrt(1.0 - alignment * alignment) * Vector3d::UnitZ();
+  }
+
+  Vector3d
+  center() const
+  {
+    return {0.1 * radii, 0.0, 0.1 * shift};
+  }
+
+  /** It is of the surface that the ray starts on. */
+  bool
+  isOwn() const
+  {
+    if (radii < 2.0 && ownNormal().dot(center()) < 0.01)
+      return true;
+    if (goes_in)
+      return alignment > 0.7 && radii < 1.0;
+    return radii < (alignment > 0.25 ? 3.0 : 1.5);
+  }
+};
+
 void
-expectBlocked(bool is_blocked, double alignment, double distance, bool goes_in)
+expectMet(const DiscBesideStart& disc)
 {
-  const Vector3d normal = Vector3d(goes_in ? -1.0 : 1.0, 1.0, 0.0).normalized();
-  const Vector3d own =
-      alignment * normal + std::sqrt(1.0 - alignment * alignment) * Vector3d::UnitZ();
   TreeNode node{};
   TreeLeaf leaf{};
   for (int i = 0; i < tree_width; ++i) {
@@ -282,32 +316,41 @@ expectBlocked(bool is_blocked, double alignment, double distance, bool goes_in)
       node.high[axis][i] = -std::numeric_limits<float>::infinity();
     }
   }
-  TreeRay ray{{0.0f, 0.0f, 0.0f}, {1.0f, 0.0f, 0.0f}, 0.0f, 10.0f, 1.0f, {}, 0.0f};
+  TreeRay ray{{0.0f, 0.0f, 0.0f}, {1.0f, 0.0f, 0.0f}, 0.0f, 10.0f};
+  ray.leaves_surface = true;
+  ray.own_side = static_cast<float>(disc.side);
   for (int axis = 0; axis < 3; ++axis) {
-    node.low[axis][0] = axis == 0 ? static_cast<float>(distance) - 0.1f : -0.1f;
-    node.high[axis][0] = axis == 0 ? static_cast<float>(distance) + 0.1f : 0.1f;
-    leaf.normal[axis][0] = static_cast<float>(normal[axis]);
-    ray.own_normal[axis] = static_cast<float>(own[axis]);
+    leaf.center[axis][0] = static_cast<float>(disc.center()[axis]);
+    node.low[axis][0] = leaf.center[axis][0] - 0.1f;
+    node.high[axis][0] = leaf.center[axis][0] + 0.1f;
+    leaf.normal[axis][0] = static_cast<float>(disc.side * disc.normal()[axis]);
+    ray.own_normal[axis] = static_cast<float>(disc.ownNormal()[axis]);
   }
   node.child[0] = leaf_bit;
-  leaf.center[0][0] = static_cast<float>(distance);
   leaf.sq_radius[0] = 0.01f;
   uvol_test::forLevels(kernels, [&](const SplatTreeKernels* kernel) {
-    EXPECT_EQ(is_blocked, kernel->isBlocked({&node, &leaf}, ray))
-        << alignment << ' ' << distance << ' ' << goes_in;
+    EXPECT_EQ(!disc.isOwn(), kernel->isBlocked({&node, &leaf}, ray))
+        << disc.alignment << ' ' << disc.radii << ' ' << disc.goes_in << ' '
+        << disc.shift << ' ' << disc.side;
+    SplatHit hit{};
+    EXPECT_EQ(disc.isOwn() ? 0u : 1u,
+              kernel->collect({&node, &leaf}, ray, 0.5f, &hit, 1));
   });
 }
 
 /** Splats beside the start of a ray are of its own surface if their normals agree by
- * 0.25, or 0.7 where the ray goes in, and if they are not beyond 3 radii, or one. Walls
- * beside it shade. */
+ * 0.25, or 0.7 where the ray goes in, and if they are not beyond 3 radii, or one; any
+ * that it comes out of within 1.5; and within two those whose centres are not above the
+ * plane of its start. Walls beside it shade. */
 TEST(SplatTreeKernel, PassesSplatsOfItsOwnSurface)
 {
   for (const double alignment : {0.0, 0.1, 0.24, 0.26, 0.5, 0.69, 0.71, 0.9, 1.0})
-    for (const double radii : {0.5, 0.95, 1.05, 2.0, 2.95, 3.05, 10.0}) {
-      expectBlocked(alignment < 0.25 || radii > 3.0, alignment, 0.1 * radii, false);
-      expectBlocked(alignment < 0.7 || radii > 1.0, alignment, 0.1 * radii, true);
-    }
+    for (const double radii :
+         {0.5, 0.95, 1.05, 1.45, 1.55, 1.95, 2.05, 2.95, 3.05, 9.0})
+      for (const double shift : {-0.9, 0.0, 0.9})
+        for (const double side : {1.0, -1.0})
+          for (const bool goes_in : {false, true})
+            expectMet({alignment, radii, goes_in, shift, side});
 }
 
 TEST(TreeBuilder, EveryItemIsInOneLeafAndWithinTheBoxesAbove)
