@@ -8,7 +8,21 @@ namespace uvol_bench {
 
 struct EmbreeTracer::Query {
   RTCIntersectContext context; // first: Embree hands it back
+  PeerRay ray;
   Hits* hits;
+
+  explicit Query(const PeerRay& from, Hits* found = nullptr)
+      : ray(from)
+      , hits(found)
+  {
+    rtcInitIntersectContext(&context);
+  }
+
+  static Query&
+  of(RTCIntersectContext* context)
+  {
+    return *reinterpret_cast<Query*>(context);
+  }
 };
 
 EmbreeTracer::EmbreeTracer(const pcl::PointCloud<pcl_uvol::PointSplat>& splats,
@@ -72,28 +86,16 @@ EmbreeTracer::findBounds(const RTCBoundsFunctionArguments* arguments)
 
 namespace {
 
-Eigen::Vector3f
-originOf(const RTCRay& ray)
-{
-  return {ray.org_x, ray.org_y, ray.org_z};
-}
-
-Eigen::Vector3f
-directionOf(const RTCRay& ray)
-{
-  return {ray.dir_x, ray.dir_y, ray.dir_z};
-}
-
 RTCRay
-makeRay(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction)
+makeRay(const PeerRay& ray)
 {
-  return {origin[0],
-          origin[1],
-          origin[2],
+  return {ray.origin[0],
+          ray.origin[1],
+          ray.origin[2],
           0.0f,
-          direction[0],
-          direction[1],
-          direction[2],
+          ray.direction[0],
+          ray.direction[1],
+          ray.direction[2],
           0.0f,
           infinity,
           0xffffffffu,
@@ -107,12 +109,13 @@ void
 EmbreeTracer::meet(const RTCIntersectFunctionNArguments* arguments)
 {
   const auto& tracer = *static_cast<const EmbreeTracer*>(arguments->geometryUserPtr);
-  Hits& hits = *reinterpret_cast<Query*>(arguments->context)->hits;
+  const Query& query = Query::of(arguments->context);
+  Hits& hits = *query.hits;
   auto& rayhit = *reinterpret_cast<RTCRayHit*>(arguments->rayhit);
   RTCRay& ray = rayhit.ray;
   const pcl_uvol::PointSplat& splat = tracer.splats_[arguments->primID];
   float distance, sq_offset;
-  if (!meetDisc(splat, originOf(ray), directionOf(ray), ray.tfar, distance, sq_offset))
+  if (!meetDisc(splat, query.ray, ray.tfar, distance, sq_offset))
     return;
   hits.add({distance, sq_offset, arguments->primID}, splat.radius);
   ray.tfar = std::min(ray.tfar, hits.limit);
@@ -126,8 +129,7 @@ EmbreeTracer::block(const RTCOccludedFunctionNArguments* arguments)
   RTCRay& ray = *reinterpret_cast<RTCRay*>(arguments->ray);
   float distance, sq_offset;
   if (meetDisc(tracer.splats_[arguments->primID],
-               originOf(ray),
-               directionOf(ray),
+               Query::of(arguments->context).ray,
                ray.tfar,
                distance,
                sq_offset))
@@ -137,29 +139,40 @@ EmbreeTracer::block(const RTCOccludedFunctionNArguments* arguments)
 void
 EmbreeTracer::keep(const RTCFilterFunctionNArguments* arguments)
 {
-  Hits& hits = *reinterpret_cast<Query*>(arguments->context)->hits;
+  const Query& query = Query::of(arguments->context);
   const auto& tracer = *static_cast<const EmbreeTracer*>(arguments->geometryUserPtr);
-  const auto& ray = *reinterpret_cast<const RTCRay*>(arguments->ray);
   const auto& hit = *reinterpret_cast<const RTCHit*>(arguments->hit);
   const pcl_uvol::PointSplat& splat = tracer.splats_[hit.primID];
   float distance, sq_offset;
   // Not up to ray.tfar: that is Embree's distance of this very hit, and ours may be
   // rounded to just behind it.
-  if (meetDisc(splat, originOf(ray), directionOf(ray), infinity, distance, sq_offset))
-    hits.add({distance, sq_offset, hit.primID}, splat.radius);
+  if (meetDisc(splat, query.ray, infinity, distance, sq_offset))
+    query.hits->add({distance, sq_offset, hit.primID}, splat.radius);
   arguments->valid[0] = 0;
 }
 
 void
-EmbreeTracer::collect(const Eigen::Vector3f& origin,
-                      const Eigen::Vector3f& direction,
-                      Hits& hits) const
+EmbreeTracer::refuse(const RTCFilterFunctionNArguments* arguments)
 {
-  Query query;
-  rtcInitIntersectContext(&query.context);
-  query.hits = &hits;
+  const auto& tracer = *static_cast<const EmbreeTracer*>(arguments->geometryUserPtr);
+  const auto& hit = *reinterpret_cast<const RTCHit*>(arguments->hit);
+  float distance, sq_offset;
+  if (!meetDisc(tracer.splats_[hit.primID],
+                Query::of(arguments->context).ray,
+                infinity,
+                distance,
+                sq_offset))
+    arguments->valid[0] = 0;
+}
+
+void
+EmbreeTracer::collect(const PeerRay& ray, Hits& hits) const
+{
+  Query query(ray, &hits);
+  if (way_ == EmbreeWay::OrientedDiscs)
+    query.context.filter = refuse;
   RTCRayHit rayhit{};
-  rayhit.ray = makeRay(origin, direction);
+  rayhit.ray = makeRay(ray);
   rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(scene_, &query.context, &rayhit);
   if (way_ == EmbreeWay::UserGeometry || rayhit.hit.geomID == RTC_INVALID_GEOMETRY_ID)
@@ -172,14 +185,14 @@ EmbreeTracer::collect(const Eigen::Vector3f& origin,
 }
 
 bool
-EmbreeTracer::isBlocked(const Eigen::Vector3f& origin,
-                        const Eigen::Vector3f& direction) const
+EmbreeTracer::isBlocked(const PeerRay& ray) const
 {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  RTCRay ray = makeRay(origin, direction);
-  rtcOccluded1(scene_, &context, &ray);
-  return ray.tfar < 0.0f;
+  Query query(ray);
+  if (way_ == EmbreeWay::OrientedDiscs)
+    query.context.filter = refuse;
+  RTCRay sent = makeRay(ray);
+  rtcOccluded1(scene_, &query.context, &sent);
+  return sent.tfar < 0.0f;
 }
 
 } // namespace uvol_bench

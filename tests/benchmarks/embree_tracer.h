@@ -34,14 +34,15 @@ private:
   static void
   keep(const RTCFilterFunctionNArguments* arguments);
 
+  /** Refuses what meetDisc does. */
+  static void
+  refuse(const RTCFilterFunctionNArguments* arguments);
+
   void
-  collect(const Eigen::Vector3f& origin,
-          const Eigen::Vector3f& direction,
-          Hits& hits) const override;
+  collect(const PeerRay& ray, Hits& hits) const override;
 
   bool
-  isBlocked(const Eigen::Vector3f& origin,
-            const Eigen::Vector3f& direction) const override;
+  isBlocked(const PeerRay& ray) const override;
 
   EmbreeWay way_;
   RTCDevice device_;

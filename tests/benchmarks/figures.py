@@ -30,7 +30,7 @@ MEASUREMENTS = {
     "neighborhoods": ("google", f"bench_neighborhoods --benchmark_filter=/1000000/ {REPEATED}"),
     "rendering": ("google", "xvfb-run -a bench_rendering --benchmark_filter='surface:0/width:1024.*(lines:0/occlusion:0|height:1024)/real_time' "
                   f"{REPEATED}"),
-    "ray_tracing": ("google", "bench_ray_tracing --benchmark_filter='(rayTracer|userGeometry)/splats:300000/radius:300' "
+    "ray_tracing": ("google", "env OMP_NUM_THREADS=1 bench_ray_tracing --benchmark_filter='(rayTracer|userGeometry)/splats:300000/radius:300' "
                     f"{REPEATED}"),
     "voronoi": ("google", f"bench_voronoi --benchmark_filter=transform/side:256/points:10000 {REPEATED}"),
     "clusters": ("words", "clusters 1e6"),
@@ -127,9 +127,9 @@ ROWS = {
                       "whole_job/uvol", "whole_job/cgal"),
     "rendering": ("rendering", "picture of 544,000 points, 1024 x 1024, no graphics card", "VTK, the mere points",
                   "imageSpace", "vtkPointMapper"),
-    "rays": ("ray_tracing", "rays on 300,000 discs, 1200 x 1200, light and shadow", "Embree, one pass",
+    "rays": ("ray_tracing", "rays on 300,000 discs, 1200 x 1200, light and shadow, one thread", "Embree, one pass",
              f"rayTracer/{DISCS}:0", f"embree/userGeometry/{DISCS}:0"),
-    "mirrored_rays": ("ray_tracing", "the same with four mirrorings", "Embree, one pass", f"rayTracer/{DISCS}:4",
+    "mirrored_rays": ("ray_tracing", "the same with four mirrorings, one thread", "Embree, one pass", f"rayTracer/{DISCS}:4",
                       f"embree/userGeometry/{DISCS}:4"),
     "voronoi": ("voronoi", "discrete Voronoi diagram, 10,000 points, 256³", "the thesis", "transform", None),
     "clusters": ("clusters", "clusters of 998,250 points, 6 attributes", "", None, None),

@@ -188,21 +188,14 @@ OctreeTracer::walk(const Eigen::Vector3f& origin,
 }
 
 void
-OctreeTracer::collect(const Eigen::Vector3f& origin,
-                      const Eigen::Vector3f& direction,
-                      Hits& hits) const
+OctreeTracer::collect(const PeerRay& ray, Hits& hits) const
 {
-  walk(origin, direction, [&](const Node& leaf, float enter, float leave) {
+  walk(ray.origin, ray.direction, [&](const Node& leaf, float enter, float leave) {
     for (std::uint32_t i = leaf.first; i < leaf.first + leaf.count; ++i) {
       const pcl_uvol::PointSplat& splat = splats_[leaf_splats_[i]];
       float distance, sq_offset;
       // A hit outside this leaf is the business of another leaf with this splat.
-      if (meetDisc(splat,
-                   origin,
-                   direction,
-                   std::min(leave, hits.limit),
-                   distance,
-                   sq_offset) &&
+      if (meetDisc(splat, ray, std::min(leave, hits.limit), distance, sq_offset) &&
           distance >= enter && distance < leave)
         hits.add({distance, sq_offset, leaf_splats_[i]}, splat.radius);
     }
@@ -211,19 +204,13 @@ OctreeTracer::collect(const Eigen::Vector3f& origin,
 }
 
 bool
-OctreeTracer::isBlocked(const Eigen::Vector3f& origin,
-                        const Eigen::Vector3f& direction) const
+OctreeTracer::isBlocked(const PeerRay& ray) const
 {
   bool is_blocked = false;
-  walk(origin, direction, [&](const Node& leaf, float, float) {
+  walk(ray.origin, ray.direction, [&](const Node& leaf, float, float) {
     float distance, sq_offset;
     for (std::uint32_t i = leaf.first; i < leaf.first + leaf.count; ++i)
-      if (meetDisc(splats_[leaf_splats_[i]],
-                   origin,
-                   direction,
-                   infinity,
-                   distance,
-                   sq_offset)) {
+      if (meetDisc(splats_[leaf_splats_[i]], ray, infinity, distance, sq_offset)) {
         is_blocked = true;
         return -infinity;
       }

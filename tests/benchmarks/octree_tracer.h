@@ -50,13 +50,10 @@ private:
        const Visit& visit) const;
 
   void
-  collect(const Eigen::Vector3f& origin,
-          const Eigen::Vector3f& direction,
-          Hits& hits) const override;
+  collect(const PeerRay& ray, Hits& hits) const override;
 
   bool
-  isBlocked(const Eigen::Vector3f& origin,
-            const Eigen::Vector3f& direction) const override;
+  isBlocked(const PeerRay& ray) const override;
 
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> leaf_splats_;

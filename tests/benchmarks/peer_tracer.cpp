@@ -12,18 +12,18 @@ namespace uvol_bench {
 
 namespace {
 
-constexpr float lift = 1e-3f;
+constexpr float lift = 1e-5f;
 
 } // namespace
 
 bool
-PeerTracer::intersect(const Eigen::Vector3f& origin,
-                      const Eigen::Vector3f& direction,
+PeerTracer::intersect(const PeerRay& ray,
                       Eigen::Vector3f& place,
-                      Eigen::Vector3f& normal) const
+                      Eigen::Vector3f& normal,
+                      Eigen::Vector3f& plane_normal) const
 {
   Hits hits;
-  collect(origin, direction, hits);
+  collect(ray, hits);
   normal.setZero();
   const Hit* nearest = nullptr;
   const Hit* first = nullptr;
@@ -46,7 +46,7 @@ PeerTracer::intersect(const Eigen::Vector3f& origin,
     }
     const Eigen::Vector3f u = splat.getTangentVector3fMap(),
                           n = splat.getNormalVector3fMap(), v = n.cross(u),
-                          d = origin + hit.distance * direction -
+                          d = ray.origin + hit.distance * ray.direction -
                               splat.getVector3fMap();
     normal += std::max(0.0f, 1.0f - offset) *
               (n + (splat.tilt_u + splat.slope_u * d.dot(u) / splat.radius) * u +
@@ -54,7 +54,8 @@ PeerTracer::intersect(const Eigen::Vector3f& origin,
                   .normalized();
   }
   normal.normalize();
-  place = origin + nearest->distance * direction;
+  place = ray.origin + nearest->distance * ray.direction;
+  plane_normal = splats_[nearest->splat].getNormalVector3fMap();
   return true;
 }
 
@@ -86,27 +87,29 @@ PeerTracer::render(const pcl_uvol::Camera& camera,
           for (int column = left; column < std::min(size, left + tile); ++column) {
             const float x = (2.0f * (column + 0.5f) / size - 1.0f) * half;
             const float y = (2.0f * (row + 0.5f) / size - 1.0f) * half;
-            Eigen::Vector3f origin = camera.eye.cast<float>();
-            Eigen::Vector3f direction =
-                (axes.row(2) + x * axes.row(0) + y * axes.row(1))
-                    .transpose()
-                    .normalized();
+            PeerRay ray{camera.eye.cast<float>(),
+                        (axes.row(2) + x * axes.row(0) + y * axes.row(1))
+                            .transpose()
+                            .normalized()};
             Eigen::Vector3f color = Eigen::Vector3f::Zero();
             float weight = 1.0f;
             for (int bounce = 0; bounce <= depth; ++bounce) {
-              Eigen::Vector3f place, normal;
-              if (!intersect(origin, direction, place, normal)) {
+              Eigen::Vector3f place, normal, plane_normal;
+              if (!intersect(ray, place, normal, plane_normal)) {
                 color.array() += weight;
                 break;
               }
-              if (normal.dot(direction) > 0.0f)
+              if (plane_normal.dot(ray.direction) > 0.0f) {
                 normal = -normal;
-              origin = place + lift * normal;
+                plane_normal = -plane_normal;
+              }
+              ray.origin = place + lift * plane_normal;
+              ray.own_normal = plane_normal;
               float shade = 0.18f, highlight = 0.0f;
               const float cosine = normal.dot(light);
-              if (cosine > 0.0f && !isBlocked(origin, light)) {
+              if (cosine > 0.0f && !isBlocked({ray.origin, light, ray.own_normal})) {
                 shade += 0.75f * cosine;
-                const Eigen::Vector3f halfway = (light - direction).normalized();
+                const Eigen::Vector3f halfway = (light - ray.direction).normalized();
                 highlight =
                     0.22f * std::pow(std::max(0.0f, normal.dot(halfway)), 40.0f);
               }
@@ -114,7 +117,7 @@ PeerTracer::render(const pcl_uvol::Camera& camera,
                                      Eigen::Vector3f(0.8f, 0.78f, 0.74f) +
                                  Eigen::Vector3f::Constant(highlight));
               weight *= mirrored;
-              direction -= 2.0f * direction.dot(normal) * normal;
+              ray.direction -= 2.0f * ray.direction.dot(normal) * normal;
             }
             std::uint8_t* const pixel =
                 &image.color[4 * static_cast<std::size_t>(row * size + column)];

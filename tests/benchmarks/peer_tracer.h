@@ -20,6 +20,13 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 /** Depth of the first surface behind a hit, in radii of its splat. */
 constexpr float part_of_radius = 0.5f;
 
+/** A ray, and the normal, on its side, of the surface that it starts on, 0 for others.
+ */
+struct PeerRay {
+  Eigen::Vector3f origin, direction;
+  Eigen::Vector3f own_normal = Eigen::Vector3f::Zero();
+};
+
 class PeerTracer {
 public:
   explicit PeerTracer(const pcl::PointCloud<pcl_uvol::PointSplat>& splats)
@@ -71,15 +78,16 @@ protected:
     }
   };
 
-  /** Distance to a disc, and squared distance to its centre; false if it is missed. */
+  /** Distance to a disc, and squared distance to its centre; false if it is missed, or
+   * belongs to the surface that the ray starts on, by the rule of our tracer. */
   static bool
   meetDisc(const pcl_uvol::PointSplat& splat,
-           const Eigen::Vector3f& origin,
-           const Eigen::Vector3f& direction,
+           const PeerRay& ray,
            float farthest,
            float& distance,
            float& sq_offset)
   {
+    const Eigen::Vector3f &origin = ray.origin, &direction = ray.direction;
     const float ox = splat.x - origin[0], oy = splat.y - origin[1],
                 oz = splat.z - origin[2];
     const float along = splat.normal_x * ox + splat.normal_y * oy + splat.normal_z * oz;
@@ -91,26 +99,40 @@ protected:
     const float dx = distance * direction[0] - ox, dy = distance * direction[1] - oy,
                 dz = distance * direction[2] - oz;
     sq_offset = dx * dx + dy * dy + dz * dz;
-    return sq_offset <= splat.radius * splat.radius;
+    return sq_offset <= splat.radius * splat.radius &&
+           !isOwn(splat, ray, distance, across);
   }
 
   const pcl::PointCloud<pcl_uvol::PointSplat>& splats_;
 
 private:
+  static bool
+  isOwn(const pcl_uvol::PointSplat& splat,
+        const PeerRay& ray,
+        float distance,
+        float rise)
+  {
+    const float alignment = splat.normal_x * ray.own_normal[0] +
+                            splat.normal_y * ray.own_normal[1] +
+                            splat.normal_z * ray.own_normal[2];
+    const bool comes_out = alignment * rise > 0.0f;
+    const float least = comes_out ? 0.25f : 0.7f, reach = comes_out ? 3.0f : 1.0f;
+    return alignment * alignment > least * least && distance < reach * splat.radius;
+  }
+
   /** Adds every hit of the first surface, each splat once. */
   virtual void
-  collect(const Eigen::Vector3f& origin,
-          const Eigen::Vector3f& direction,
-          Hits& hits) const = 0;
+  collect(const PeerRay& ray, Hits& hits) const = 0;
 
   virtual bool
-  isBlocked(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction) const = 0;
+  isBlocked(const PeerRay& ray) const = 0;
 
+  /** \param plane_normal of the splat that the place lies on */
   bool
-  intersect(const Eigen::Vector3f& origin,
-            const Eigen::Vector3f& direction,
+  intersect(const PeerRay& ray,
             Eigen::Vector3f& place,
-            Eigen::Vector3f& normal) const;
+            Eigen::Vector3f& normal,
+            Eigen::Vector3f& plane_normal) const;
 };
 
 } // namespace uvol_bench
