@@ -89,6 +89,10 @@ toVector(Rgba color)
           scale * static_cast<float>(color >> 16 & 0xff)};
 }
 
+/** Sine up to which a ray from behind may graze the outside of a splat, however much it
+ * bends: of open surfaces more would be their inside. */
+constexpr float most_grazing = 0.1f;
+
 /** How much its field turns normals out of the plane's. */
 float
 bendOf(const SplatRecord& splat)
@@ -452,7 +456,7 @@ SplatTree::intersect(const Ray& ray,
   const bool has_weight = blend.weights > 0.0f; // else on the border of a single splat
   hit.distance = *entry + blend.nearest->distance;
   hit.thickness = blend.thickness;
-  hit.bend = std::min(bendOf(splat), 1.0f);
+  hit.bend = std::min(bendOf(splat), most_grazing);
   hit.plane_normal = toVector(splat.normal).cast<double>();
   hit.normal = has_weight ? Eigen::Vector3d(blend.normal.cast<double>().normalized())
                           : hit.plane_normal;

@@ -57,8 +57,8 @@ struct SplatSurfaceHit {
   Eigen::Vector3d plane_normal; ///< of the splat that the hit lies on
   Eigen::Vector3d color;        ///< averaged as well
   double thickness;             ///< of the layer of splats there
-  double
-      bend; ///< sine of the angle that the surface's normals turn by within the splat
+  double bend; ///< sine of the angle that the surface's normals turn by within the
+               ///< splat, at most 0.1
 };
 
 /** \brief Built once. Memory: about 200 bytes per splat, and 32 to 512 per splat that
