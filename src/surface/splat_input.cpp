@@ -224,8 +224,8 @@ isDrawable(const PointSplat& splat)
   };
   return splat.getVector3fMap().unaryExpr(is_within).all() &&
          splat.getNormalVector3fMap().allFinite() &&
-         !splat.getNormalVector3fMap().isZero(0.0f) && splat.radius > 0.0f &&
-         is_within(splat.radius);
+         !splat.getNormalVector3fMap().isZero(0.0f) &&
+         splat.radius >= least_splat_radius && is_within(splat.radius);
 }
 
 Splats

@@ -24,8 +24,11 @@ hasSplats(const CloudView& cloud);
  * products of lengths that such coordinates have between them. */
 constexpr float most_splat_reach = 1e18f;
 
+/** \brief The smallest radius: float holds its square. */
+constexpr float least_splat_radius = 1e-18f;
+
 /** \brief True for a splat that rays can meet: it is finite, has a normal and a radius
- * above 0, and lies within most_splat_reach.
+ * of least_splat_radius or more, and lies within most_splat_reach.
  * \param splat of a cloud */
 PCL_UVOL_EXPORTS bool
 isDrawable(const PointSplat& splat);

@@ -524,7 +524,7 @@ TEST(ReadSplats, LeavesOutWhatIsNoDisc)
 }
 
 /** Products of lengths between splats have to stay within float. */
-TEST(ReadSplats, LeavesOutWhatIsTooFarOrTooLarge)
+TEST(ReadSplats, LeavesOutWhatIsTooFarTooLargeOrTooSmall)
 {
   SplatCloud splats = makeSplats(makeSphere(100, 1), 1e-3, 0.0);
   splats[1].y = 2.5e37f;
@@ -532,12 +532,14 @@ TEST(ReadSplats, LeavesOutWhatIsTooFarOrTooLarge)
   splats[3].z = -1.01f * pcl_uvol::most_splat_reach;
   splats[4].x = pcl_uvol::most_splat_reach;
   splats[5].radius = pcl_uvol::most_splat_reach;
+  splats[6].radius = 0.99f * pcl_uvol::least_splat_radius;
+  splats[7].radius = pcl_uvol::least_splat_radius;
   Report report;
   const auto read = pcl_uvol::readSplats(pcl_uvol::viewOf(splats), report);
-  EXPECT_EQ(report.getCount("bad_splats"), 3u);
+  EXPECT_EQ(report.getCount("bad_splats"), 4u);
   ASSERT_EQ(report.warnings.size(), 1u);
-  EXPECT_EQ(0u, report.warnings[0].find("3 of 100 splats are left out"));
-  ASSERT_EQ(read.sources.size(), 97u);
+  EXPECT_EQ(0u, report.warnings[0].find("4 of 100 splats are left out"));
+  ASSERT_EQ(read.sources.size(), 96u);
   EXPECT_EQ(read.sources[1], 4u);
 }
 
