@@ -6,6 +6,7 @@
 #include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <string_view>
 
@@ -27,17 +28,33 @@ struct Parts {
   std::string word, unit;
 };
 
+constexpr const char* separators = "_-. ([/";
+
+/** What is left of a unit behind words that are none: "minus_dbar" -> "dbar",
+ * "coord" -> "". */
+std::string
+withoutFillers(const std::string& unit)
+{
+  static const std::set<std::string> fillers{
+      "coord", "coords", "coordinate", "coordinates", "minus"};
+  const std::size_t end = std::min(unit.find_first_of(separators), unit.size());
+  return fillers.count(unit.substr(0, end)) > 0
+             ? unit.substr(std::min(end + 1, unit.size()))
+             : unit;
+}
+
 Parts
 splitName(const std::string& name)
 {
   const std::string lower = lowerCase(trimmed(name));
-  const std::size_t end = lower.find_first_of("_-. ([/");
+  const std::size_t end = lower.find_first_of(separators);
   if (end == std::string::npos)
     return {lower, ""};
   std::string unit = lower.substr(end);
-  const std::size_t first = unit.find_first_not_of("_-. ([/");
+  const std::size_t first = unit.find_first_not_of(separators);
   unit = first == std::string::npos ? "" : unit.substr(first);
-  return {lower.substr(0, end), unit.substr(0, unit.find_first_of(")] "))};
+  return {lower.substr(0, end),
+          withoutFillers(unit.substr(0, unit.find_first_of(")] ")))};
 }
 
 bool
@@ -54,7 +71,7 @@ bool
 isVertical(const std::string& word)
 {
   static const std::set<std::string> words{
-      "z", "elevation", "elev", "altitude", "alt", "height", "depth"};
+      "z", "elevation", "elev", "rl", "altitude", "alt", "height", "depth"};
   return words.count(word) > 0;
 }
 
@@ -101,6 +118,41 @@ rankName(const std::string& name, System system)
   return word.size() > 1 ? 1 : isLength(unit) || unit.empty() ? 0 : 2;
 }
 
+/** One word for a unit of length, "" for what is none. A decibar of sea water is a
+ * metre deep. */
+std::string
+lengthUnit(const std::string& name)
+{
+  static const std::map<std::string, std::string> same{{"meters", "m"},
+                                                       {"metres", "m"},
+                                                       {"utm", "m"},
+                                                       {"dbar", "m"},
+                                                       {"feet", "ft"},
+                                                       {"angstrom", "a"}};
+  const std::string unit = splitName(name).unit;
+  const auto found = same.find(unit);
+  return found != same.end() ? found->second : isLength(unit) ? unit : "";
+}
+
+bool
+mixLengths(const std::array<std::string, 3>& names)
+{
+  std::set<std::string> units;
+  for (const std::string& name : names)
+    units.insert(lengthUnit(name));
+  units.erase("");
+  return units.size() > 1;
+}
+
+/** What distances mix, "" where it is not known that they do. */
+std::string
+findMixture(System system, const std::array<std::string, 3>& names)
+{
+  if (system == Geographic)
+    return "degrees with another unit";
+  return mixLengths(names) ? "different units of length" : "";
+}
+
 } // namespace
 
 std::optional<CoordinateColumns>
@@ -118,11 +170,13 @@ recognizeCoordinates(const std::vector<std::string>& names)
     if (!x || !y || !z)
       continue;
     CoordinateColumns columns{{{*x, *y, *z}}, ""};
-    if (system == Geographic)
+    const std::string mixture =
+        findMixture(static_cast<System>(system), {names[*x], names[*y], names[*z]});
+    if (!mixture.empty())
       columns.note = "Coordinates are " + names[*x] + ", " + names[*y] + " and " +
-                     names[*z] +
-                     ", so distances mix degrees with another unit: columns in metres, "
-                     "or factors for the axes (-scale), mend that.";
+                     names[*z] + ", so distances mix " + mixture +
+                     ": columns in one unit of length, or factors for the axes "
+                     "(-scale), mend that.";
     return columns;
   }
   return std::nullopt;

@@ -19,11 +19,11 @@ struct CoordinateColumns {
 /** \brief Find coordinates by the names of columns.
  *
  * In this order: x, y, z; the same with a unit of length, as x_km, "y (m)", z[ft], or
- * without one, where a vertical (elevation, altitude, height, depth) is as good as z,
- * and z may have any ending (z_minus_dbar); easting, northing and a vertical;
- * longitude, latitude and a vertical, with a note. Upper and lower case are the same,
- * and of several columns the first counts.
- * \return nothing if the names tell no coordinates */
+ * without one (x_coord), where a vertical (elevation, rl, altitude, height, depth) is
+ * as good as z, and z may have any ending (z_minus_dbar); easting, northing and a
+ * vertical; longitude, latitude and a vertical. A note tells of degrees, and of units
+ * of length that differ. Upper and lower case are the same, and of several columns the
+ * first counts. \return nothing if the names tell no coordinates */
 std::optional<CoordinateColumns>
 recognizeCoordinates(const std::vector<std::string>& names);
 

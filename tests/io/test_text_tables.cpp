@@ -173,7 +173,15 @@ TEST(TextTables, CoordinatesHaveUsualNames)
        {Case{"x_m,y_m,z_m,q,r", 1, 2, 3, 0},
         Case{"q,X (km),Y (km),Z (km),r", 2, 3, 4, 0},
         Case{"q,r,x[ft],y[ft],z[ft]", 3, 4, 5, 0},
-        Case{"x_km,y_km,z_minus_dbar,q,r", 1, 2, 3, 0},
+        Case{"x_m,y_m,z_minus_dbar,q,r", 1, 2, 3, 0},
+        Case{"x_km,y_km,z_minus_dbar,q,r", 1, 2, 3, 1},
+        Case{"x_km,y_km,z_m,q,r", 1, 2, 3, 1},
+        Case{"East (ft),North (ft),RL_m,q,r", 1, 2, 3, 1},
+        Case{"EAST_ft,NORTH_ft,RL_ft,q,r", 1, 2, 3, 0},
+        Case{"easting_utm,northing_m,elev_metres,q,r", 1, 2, 3, 0},
+        Case{"x_m,y_m,depth,q,r", 1, 2, 3, 0},
+        Case{"q,x_coord,y_coord,z_coord,r", 2, 3, 4, 0},
+        Case{"q,X Coordinate,Y Coordinate,Z Coordinate,r", 2, 3, 4, 0},
         Case{"hole,Easting,Northing,Elevation,q", 2, 3, 4, 0},
         Case{"lon,lat,depth,q,r", 1, 2, 3, 1},
         Case{"lon_deg,lat_deg,x_m,y_m,z_m", 3, 4, 5, 0},
@@ -196,12 +204,18 @@ TEST(TextTables, CoordinatesHaveUsualNames)
 
 TEST(TextTables, MixedUnitsAreToldUnlessNobodyMinds)
 {
-  const std::string table = "lon,lat,depth\n1,2,3\n";
-  ASSERT_EQ(load(table).notes.size(), 1u);
-  EXPECT_NE(load(table).notes[0].find("degrees"), std::string::npos);
-  pcl_uvol::LoadOptions options;
-  options.may_mix_units = true;
-  EXPECT_TRUE(load(table, options).notes.empty());
+  for (const auto& [header, mixture] :
+       {std::pair("lon,lat,depth", "degrees with another unit"),
+        std::pair("x_km,y_km,z_m",
+                  "x_km, y_km and z_m, so distances mix different "
+                  "units of length")}) {
+    const std::string table = header + std::string("\n1,2,3\n");
+    ASSERT_EQ(load(table).notes.size(), 1u);
+    EXPECT_NE(load(table).notes[0].find(mixture), std::string::npos);
+    pcl_uvol::LoadOptions options;
+    options.may_mix_units = true;
+    EXPECT_TRUE(load(table, options).notes.empty());
+  }
 }
 
 TEST(TextTables, WhereAnAxisIsNamedNothingIsGuessed)
@@ -209,6 +223,7 @@ TEST(TextTables, WhereAnAxisIsNamedNothingIsGuessed)
   for (const char* const header : {"time_s,x_m,y_m,q",
                                    "a,b,c,depth_m",
                                    "lat,lon,a,b",
+                                   "x_coord,y_coord,a,b",
                                    "x_m,y_m,a,elevation_deg"}) {
     const std::string error = errorOf(std::string(header) + "\n1.5,2.5,3.5,4.5\n");
     EXPECT_NE(error.find("only some"), std::string::npos) << header;

@@ -24,9 +24,9 @@ struct PCL_UVOL_EXPORTS LoadOptions {
   /** False: a text file whose header names no coordinates is taken for data without
    * positions. */
   bool needs_coordinates = true;
-  /** False: a note says that distances mix degrees of longitude and latitude with the
-   * unit of a vertical. Nobody minds where axes get factors before distances are
-   * measured, or none are. */
+  /** False: a note says that distances mix degrees of longitude and latitude, or
+   * different units of length, as names of columns tell. Nobody minds where axes get
+   * factors before distances are measured, or none are. */
   bool may_mix_units = false;
   /** The kind of particles that is read from a snapshot, by its name (gas, dm, disk,
    * bulge, stars, bh, of Phantom boundary, dust) or its number; empty: gas, or the
