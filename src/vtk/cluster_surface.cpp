@@ -10,8 +10,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <limits>
 #include <numeric>
+#include <optional>
+#include <sstream>
 #include <string>
 
 namespace pcl_uvol {
@@ -122,18 +125,85 @@ findRegions(const std::vector<std::array<float, 3>>& vertices, const VoronoiGrid
   return regions;
 }
 
-/** A hull has one corner per cell at most: it tells little of points that share them.
- */
-void
-warnOfSharedCells(std::size_t members, std::size_t filled_cells, Report& report)
+/** The member that lies farthest from the middle. */
+struct Outlier {
+  std::uint32_t point = 0; ///< index in the cloud
+  double ratio = 0.0;      ///< its distance by that of the median member
+};
+
+Position
+findMiddle(const std::vector<Position>& positions)
 {
-  if (2 * filled_cells < members)
-    report.warnings.push_back("The " + std::to_string(members) +
-                              " points of the cluster lie in " +
-                              std::to_string(filled_cells) +
-                              " cells of the grid, and the hull goes through one of "
-                              "each: a finer grid helps, "
-                              "or to leave out points that lie far from the others.");
+  Position middle{};
+  std::vector<float> sorted(positions.size());
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    std::transform(positions.begin(),
+                   positions.end(),
+                   sorted.begin(),
+                   [&](const Position& position) { return position.x[axis]; });
+    const auto half = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::nth_element(sorted.begin(), half, sorted.end());
+    middle.x[axis] = *half;
+  }
+  return middle;
+}
+
+/** \return none where no member lies far out */
+std::optional<Outlier>
+findOutlier(const Members& members)
+{
+  constexpr double far_out = 5.0;
+  const Position middle = findMiddle(members.positions);
+  std::vector<double> distances;
+  for (const Position& position : members.positions)
+    distances.push_back(std::hypot(position.x[0] - middle.x[0],
+                                   position.x[1] - middle.x[1],
+                                   position.x[2] - middle.x[2]));
+  const auto farthest = std::max_element(distances.begin(), distances.end());
+  const std::uint32_t point =
+      members.points[static_cast<std::size_t>(farthest - distances.begin())];
+  const double largest = *farthest;
+  const auto half =
+      distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+  std::nth_element(distances.begin(), half, distances.end());
+  if (!(largest > far_out * *half))
+    return std::nullopt;
+  return Outlier{point, largest / *half};
+}
+
+std::string
+describe(const Outlier& outlier)
+{
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(0) << "the point of index " << outlier.point
+       << " lies " << outlier.ratio
+       << " times as far from the middle as half of them do";
+  return text.str();
+}
+
+/** A hull has one corner per cell at most: it tells little of points that share them.
+ * Distances from cells are about those from points, unless a few far out make the cells
+ * large. */
+void
+warnOfSharedCells(const Members& members,
+                  ClusterSurfaceKind kind,
+                  std::size_t filled_cells,
+                  Report& report)
+{
+  if (2 * filled_cells >= members.positions.size())
+    return;
+  const auto outlier = findOutlier(members);
+  const bool is_distance = kind == ClusterSurfaceKind::Distance;
+  if (is_distance && !outlier)
+    return;
+  report.warnings.push_back(
+      "The " + std::to_string(members.positions.size()) +
+      " points of the cluster lie in " + std::to_string(filled_cells) +
+      " cells of the grid, and the " +
+      (is_distance ? "surface is at a distance from these"
+                   : "hull goes through one of each") +
+      ": a finer grid helps, or to leave out points that lie far from the others" +
+      (outlier ? " (" + describe(*outlier) + ")." : "."));
 }
 
 /** Turns a surface at a distance into the hull. */
@@ -144,13 +214,15 @@ shrinkToHull(const Members& members,
              Report& report)
 {
   const StepTimer timer(report, "hull");
-  warnOfSharedCells(members.positions.size(), grid.getSites().size(), report);
   const ClusterHull hull =
       makeClusterHull(surface.mesh.triangles, findRegions(surface.mesh.vertices, grid));
-  if (hull.triangles.empty())
+  if (hull.triangles.empty()) {
+    const auto outlier = findOutlier(members);
     throw InvalidArgument(
         "The cluster has no hull: fewer than three of its points meet "
-        "on a surface around them.");
+        "on a surface around them" +
+        (outlier ? ", as " + describe(*outlier) + ": leave it out." : "."));
+  }
   surface.mesh.vertices.clear();
   for (const std::uint32_t site : hull.regions) {
     const std::uint32_t member = *grid.getMembers()[site].begin();
@@ -232,6 +304,7 @@ detail::encloseCluster(const CloudView& cloud,
     const StepTimer timer(report, "contour");
     surface.mesh = contourGrid(shape, distances, surface.distance);
   };
+  warnOfSharedCells(finite, kind, grid.getSites().size(), report);
   contour(grid.computeDistances(threads));
   if (kind != ClusterSurfaceKind::Distance)
     shrinkToHull(finite, grid, surface, report);

@@ -340,12 +340,31 @@ TEST(ClusterSurfaces, TellThatMembersShareCells)
   Points points = ballOf(2000, 4);
   Report report;
   Cluster(points).enclose(ClusterSurfaceKind::Hull, settingsOf(0.0), report);
+  Cluster(points).enclose(ClusterSurfaceKind::Distance, settingsOf(0.0), report);
   EXPECT_TRUE(report.warnings.empty());
   points.emplace_back(60.0, 0.0, 0.0);
-  Cluster(points).enclose(ClusterSurfaceKind::Hull, settingsOf(0.0), report);
-  ASSERT_EQ(1u, report.warnings.size());
-  EXPECT_NE(std::string::npos,
-            report.warnings[0].find("The 2001 points of the cluster lie in"));
+  for (const auto kind : {ClusterSurfaceKind::Hull, ClusterSurfaceKind::Distance}) {
+    Report own;
+    Cluster(points).enclose(kind, settingsOf(0.0), own);
+    ASSERT_EQ(1u, own.warnings.size());
+    for (const char* const words :
+         {"The 2001 points of the cluster lie in", "the point of index 2000 lies"})
+      EXPECT_NE(std::string::npos, own.warnings[0].find(words)) << own.warnings[0];
+  }
+}
+
+TEST(ClusterSurfaces, NameThePointThatLeavesNoHull)
+{
+  Points points = ballOf(2000, 4);
+  points.emplace(points.begin() + 7, 1000.0, 0.0, 0.0);
+  try {
+    Cluster(points).enclose(ClusterSurfaceKind::Hull, 0.0);
+    FAIL() << "a hull of two cells";
+  }
+  catch (const InvalidArgument& error) {
+    EXPECT_NE(std::string::npos, error.message().find("the point of index 7 lies"))
+        << error.message();
+  }
 }
 
 TEST(ClusterSurfaces, RefuseWhatTheyCannotEnclose)
