@@ -328,7 +328,7 @@ private:
     skipBlanks();
     std::string name;
     const std::size_t begin = at_;
-    const bool is_quoted = peek() == '"';
+    const bool is_quoted = isLabelQuote(peek());
     if (!takeLabel(text_, at_, name))
       fail("A quotation mark is not closed", begin);
     if (name.empty() && !is_quoted)

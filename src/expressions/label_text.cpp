@@ -8,10 +8,17 @@
 namespace pcl_uvol {
 
 bool
+isLabelQuote(char character)
+{
+  return character == '"' || character == '\'';
+}
+
+bool
 takeLabel(std::string_view text, std::size_t& at, std::string& name)
 {
   name.clear();
-  if (text.substr(at, 1) != "\"") {
+  const std::string_view quote = text.substr(at, 1);
+  if (!isLabelQuote(quote.empty() ? ' ' : quote[0])) {
     const std::size_t end = std::min(
         {text.find("&&", at), text.find("||", at), text.find(')', at), text.size()});
     name = trimmed(text.substr(at, end - at));
@@ -19,7 +26,7 @@ takeLabel(std::string_view text, std::size_t& at, std::string& name)
     return true;
   }
   for (++at; at < text.size(); ++at) {
-    if (text[at] == '"' && text.substr(++at, 1) != "\"")
+    if (text[at] == quote[0] && text.substr(++at, 1) != quote)
       return true;
     name += text[at];
   }

@@ -99,6 +99,25 @@ TEST_F(Labels, SelectPoints)
   EXPECT_NE(std::string::npos, order.err.find("which = and != compare")) << order.err;
 }
 
+TEST_F(Labels, MayHoldQuotationMarks)
+{
+  writeFile(folder_ / "pipes.csv",
+            "x,y,z,pipe\n"
+            "1,0,0,\"5\"\" steel\"\n2,0,0,\"5\"\" steel\"\n3,0,0,O'Hara\n");
+  for (const auto& [where, count] : {std::pair(R"(pipe='5" steel')", 2u),
+                                     std::pair(R"(pipe="5"" steel")", 2u),
+                                     std::pair(R"(pipe!="O'Hara")", 2u),
+                                     std::pair(R"(pipe='O''Hara' && x>2)", 1u)}) {
+    writeFile(folder_ / "where", where);
+    EXPECT_EQ(count,
+              resultOf("convert pipes.csv b.csv -where \"$(cat where)\"", "b.csv")
+                  .cloud.width)
+        << where;
+  }
+  EXPECT_NE(std::string::npos,
+            run("convert pipes.csv b.csv -where \"pipe='5\"").err.find("not closed"));
+}
+
 TEST_F(Labels, AreCarriedToIsopointsAndWrittenByEveryFormat)
 {
   const Dataset table = resultOf("isosurface holes.csv s.csv -iso 7", "s.csv");
