@@ -306,6 +306,7 @@ describeCloud(const Options& options,
     stretch = arguments.scale.resolve(
         pcl_uvol::viewOf(dataset.cloud), "", threads, report, facts_of_scale);
     addPositions(input, dataset, stretch, threads, facts, report);
+    facts.insert(facts.end(), facts_of_scale.begin(), facts_of_scale.end());
   }
   else
     report.warnings.push_back(input +

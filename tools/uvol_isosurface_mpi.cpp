@@ -79,9 +79,6 @@ finishParameters(const Options& options, Arguments& arguments)
   if (arguments.parameters.automatic_scale)
     throw UsageError("-scale auto is not offered, as no process sees all samples: give "
                      "three factors.");
-  const Eigen::Array3f& scale = arguments.parameters.isosurface.scale;
-  if (!(scale > 0.0f).all() || !scale.isFinite().all())
-    throw UsageError("-scale takes three positive factors.");
   arguments.periodic.check();
   arguments.parameters.normals = pcl_uvol::NormalMethod::Edge;
   if (arguments.inPieces())

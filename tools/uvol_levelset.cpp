@@ -274,7 +274,8 @@ run(int argc, char** argv)
       "in.pcd out.ply -iso v [options]",
       "Smooths a noisy or unevenly sampled scalar field about an isosurface "
       "by a level set on the samples, and writes it as the field phi: about "
-      "the distance to the surface, positive where values are higher.");
+      "the distance to the surface, positive where values are higher, in the space "
+      "that -scale stretches.");
   declare(options, arguments);
   if (!options.parse(argc, argv))
     return 0;

@@ -105,6 +105,9 @@ TEST_F(ScaleOptions, RefuseWhatTheyCannotMean)
     for (const auto& [bad, word] :
          {std::pair("-scale 1,1", "-scale"),
           std::pair("-scale 1,2,3,4", "-scale"),
+          std::pair("-scale -1,1,1", "-scale takes three positive factors"),
+          std::pair("-scale 1,0,1", "-scale takes three positive factors"),
+          std::pair("-scale 1,1,1e-60", "-scale takes three positive factors"),
           std::pair("-scale 1,0,0,0,1,0,0,0,0", "one plane"),
           std::pair("-scale 1,0,0,0,1,0,0,0,2 -rotate 0,0,0", "-rotate"),
           std::pair("-scale automatic", "-scale"),
@@ -116,6 +119,27 @@ TEST_F(ScaleOptions, RefuseWhatTheyCannotMean)
       EXPECT_EQ(2, result.exit_code) << tool << ' ' << bad;
       EXPECT_NE(std::string::npos, result.err.find(word)) << result.err;
     }
+}
+
+TEST_F(ScaleOptions, AreTold)
+{
+  uvol_test::writeFile(folder_ / "places.csv", "x,y,z\n200,200,1\n");
+  for (const auto& [tool, options] : jobs) {
+    const std::string job = std::string(tool) + " " + in_ + " " +
+                            (folder_ / "out.csv") + " " + withPlaces(options);
+    for (const auto& [scale, told] :
+         {std::pair("-scale 1,1,100", "scale: 1,1,100\n"),
+          std::pair("-scale spacing", "scale: 1"),
+          std::pair("-scale 1,1,4 -rotate 10,0,0", "rotation: 10,0,0\n")}) {
+      const std::string report = runCommand(job + scale).out;
+      EXPECT_NE(std::string::npos, report.find(told)) << job << scale << report;
+    }
+  }
+  for (const char* const scale : {"1,1,100", "spacing", "auto"}) {
+    const std::string report = runCommand("uvol_info " + in_ + " -scale " + scale).out;
+    EXPECT_NE(std::string::npos, report.find("\nscale: 1,")) << report;
+  }
+  EXPECT_EQ(std::string::npos, runCommand("uvol_info " + in_).out.find("\nscale: "));
 }
 
 TEST_F(ScaleOptions, TellHowTheScaleWasFound)

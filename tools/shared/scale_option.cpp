@@ -45,6 +45,20 @@ ScaleOption::declare(Options& options,
         .rare();
 }
 
+namespace {
+
+Eigen::Array3f
+parseFactors(const std::string& text)
+{
+  const Eigen::Array3f factors =
+      Eigen::Array3d(parseNumbers("scale", text, 3).data()).cast<float>();
+  if (!(factors > 0.0f).all() || !factors.isFinite().all())
+    throw UsageError("-scale takes three positive factors, not " + text + ".");
+  return factors;
+}
+
+} // namespace
+
 void
 ScaleOption::finish(const Options& options)
 {
@@ -64,8 +78,7 @@ ScaleOption::finish(const Options& options)
       stretch_ = Stretch::ofMap(Eigen::Map<const Rows>(numbers.data()));
     }
     else if (!scale_.empty() && !is_automatic && !is_from_spacing_)
-      stretch_.scale =
-          Eigen::Array3d(parseNumbers("scale", scale_, 3).data()).cast<float>();
+      stretch_.scale = parseFactors(scale_);
     if (!angles_.empty())
       stretch_.rotation = Eigen::Array3d(angles_.data());
     pcl_uvol::detail::StretchAxes checked(stretch_.rotation);
@@ -83,6 +96,8 @@ ScaleOption::resolve(const pcl_uvol::CloudView& cloud,
                      Facts& facts) const
 {
   Stretch stretch = stretch_;
+  if (isGiven())
+    facts = describe(stretch);
   if (isFromField()) {
     pcl::Indices all(cloud.count);
     std::iota(all.begin(), all.end(), 0);

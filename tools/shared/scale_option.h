@@ -61,7 +61,7 @@ public:
 
   /** \brief The stretch for some samples.
    * \param field of them; none is asked for unless isFromField()
-   * \param facts tell how a scale was found */
+   * \param facts tell of a scale that is given, and how it was found */
   pcl_uvol::detail::Stretch
   resolve(const pcl_uvol::CloudView& cloud,
           const std::string& field,
