@@ -264,18 +264,18 @@ run(int argc, char** argv)
   if (!options.parse(argc, argv))
     return 0;
   arguments.finish(options);
+  const pcl_uvol::LoadOptions load = uvol_tools::withoutPositions(arguments.reading);
   uvol_tools::MemoryGuard memory("Clustering");
   memory.checkFile(arguments.input,
-                   arguments.where.empty() ? forecastMemory(arguments) : nullptr);
+                   arguments.reading.getWhere().empty() ? forecastMemory(arguments)
+                                                        : nullptr,
+                   load);
 
   Report report;
   uvol_tools::ProgressBar bar;
   report.progress = std::ref(bar);
-  Dataset dataset = uvol_tools::loadPoints(arguments.input,
-                                           report,
-                                           uvol_tools::withoutPositions(options),
-                                           arguments.where,
-                                           options.threads());
+  Dataset dataset = uvol_tools::loadPoints(
+      arguments.input, report, load, arguments.reading.getWhere(), options.threads());
   pcl_uvol::checkSavePath(arguments.output, dataset.cloud.fields);
   memory.checkCloud(dataset, forecastMemory(arguments));
   arguments.attributes.addFields(options, dataset, report);

@@ -12,7 +12,7 @@ namespace {
 int
 run(int argc, char** argv, uvol_tools::SeriesStep* /*step*/)
 {
-  std::string input, output, where;
+  std::string input, output;
   bool ascii = false;
   uvol_tools::InputOptions reading;
   uvol_tools::DensityOptions density;
@@ -26,7 +26,6 @@ run(int argc, char** argv, uvol_tools::SeriesStep* /*step*/)
   options.file("in", input);
   options.file("out", output);
   options.group("Input");
-  options.text("where", "expr", where, "only the points for which it holds");
   reading.declare(options);
   options.group("Fields");
   density.declare(options);
@@ -40,8 +39,8 @@ run(int argc, char** argv, uvol_tools::SeriesStep* /*step*/)
   uvol_tools::MemoryGuard memory("Converting");
   memory.checkFile(input, nullptr, load);
   pcl_uvol::Report report;
-  pcl_uvol::Dataset dataset =
-      uvol_tools::loadPoints(input, report, load, where, options.threads());
+  pcl_uvol::Dataset dataset = uvol_tools::loadPoints(
+      input, report, load, reading.getWhere(), options.threads());
   density.addField(dataset, options.threads(), report);
   pcl_uvol::SaveOptions save;
   save.ascii = ascii;

@@ -32,7 +32,7 @@ using uvol_tools::toNumbers;
 struct Arguments {
   uvol_tools::ScaleOption scale;
   std::vector<std::string> inputs;
-  std::string field, where, output;
+  std::string field, output;
   uvol_tools::InputOptions reading;
 };
 
@@ -287,9 +287,10 @@ describeCloud(const Options& options,
   load.needs_coordinates = false;
   pcl_uvol::Dataset dataset = pcl_uvol::loadDataset(input, load);
   report.warnings = dataset.notes;
-  if (!arguments.where.empty())
+  if (!arguments.reading.getWhere().empty())
     report.count("removed_by_where",
-                 pcl_uvol::selectRows(dataset, arguments.where, {threads, ""}, report));
+                 pcl_uvol::selectRows(
+                     dataset, arguments.reading.getWhere(), {threads, ""}, report));
   auto fields = dataset.cloud.fields;
   if (!dataset.has_coordinates) // x, y and z stand in front of those of the file
     fields.erase(fields.begin(), fields.begin() + 3);
@@ -305,8 +306,8 @@ describeCloud(const Options& options,
     Facts facts_of_scale;
     stretch = arguments.scale.resolve(
         pcl_uvol::viewOf(dataset.cloud), "", threads, report, facts_of_scale);
-    addPositions(input, dataset, stretch, threads, facts, report);
     facts.insert(facts.end(), facts_of_scale.begin(), facts_of_scale.end());
+    addPositions(input, dataset, stretch, threads, facts, report);
   }
   else
     report.warnings.push_back(input +
@@ -380,8 +381,6 @@ run(int argc, char** argv, uvol_tools::SeriesStep* /*step*/)
       "name",
       arguments.field,
       "scalar field to draw a histogram of, or an expression: log10(rho), Q(vel)");
-  options.text(
-      "where", "expr", arguments.where, "look only at the points it holds for");
   arguments.scale.declare(options, "spacings", uvol_tools::AutomaticScale::Spacing);
   arguments.reading.declare(options);
   uvol_tools::declareSeries(options);

@@ -102,14 +102,15 @@ load(Arguments& arguments,
                                               communicator);
   report.warnings = part.notes;
   report.count("points", part.cloud.width);
-  if (!arguments.where.empty())
+  if (!arguments.getWhere().empty())
     report.count("removed_by_where",
-                 pcl_uvol::selectRows(part, arguments.where, options, report));
+                 pcl_uvol::selectRows(part, arguments.getWhere(), options, report));
   std::vector<std::uint64_t> left{part.cloud.width};
   communicator.allReduce(left);
   if (left[0] == 0)
-    throw pcl_uvol::InvalidArgument(
-        joined(arguments.inputs) + " has no points for which " + arguments.where + ".");
+    throw pcl_uvol::InvalidArgument(joined(arguments.inputs) +
+                                    " has no points for which " + arguments.getWhere() +
+                                    ".");
   const auto sides = arguments.periodic.findSides(part, report);
   arguments.parameters.periodic = Eigen::Array3d(sides.data());
   std::string& field = arguments.parameters.isosurface.field;
@@ -225,7 +226,7 @@ run(int argc, char** argv, pcl_uvol::Communicator& communicator)
   const uvol_tools::Facts of_samples =
       extract(arguments, arguments.threads(options), communicator, report);
   bar.reset();
-  const Report together =
+  Report together =
       mergeReports(report,
                    communicator,
                    {"bytes_redistributed", "bytes_exchanged", "bytes_of_fields"});

@@ -44,6 +44,7 @@ using uvol_tools::UsageError;
 
 struct Arguments {
   uvol_tools::ScaleOption scale;
+  uvol_tools::InputOptions reading;
   std::string input, output, mu = "auto", table, plot, start_field;
   uvol_tools::PeriodicOption periodic;
   LevelSetParameters parameters;
@@ -127,6 +128,7 @@ declare(Options& options, Arguments& arguments)
                  "the outside of -sphere, -box and -plane is where values are so");
   options.group("Input");
   arguments.scale.declare(options, "distances", uvol_tools::AutomaticScale::Field);
+  arguments.reading.declare(options);
   arguments.periodic.declare(options);
   options.group("Output");
   options.integer("snapshots",
@@ -286,6 +288,8 @@ run(int argc, char** argv)
       (arguments.scale.getStretch().rotation != 0.0).any())
     throw UsageError("-periodic goes without -rotate and a -scale of nine numbers: the "
                      "sides of the box lie along x, y and z.");
+  const pcl_uvol::LoadOptions load = arguments.reading.makeLoadOptions();
+  const std::string& where = arguments.reading.getWhere();
   pcl_uvol::checkSavePath(arguments.output);
   if (!arguments.table.empty())
     pcl_uvol::checkTablePath(arguments.table);
@@ -294,22 +298,25 @@ run(int argc, char** argv)
     uvol_tools::checkPicturePath(arguments.plot);
   const bool has_snapshots = arguments.snapshots > 0;
   uvol_tools::MemoryGuard memory("A level set");
-  memory.checkFile(arguments.input,
-                   [&](double points, double step, pcl_uvol::MemoryForecast& forecast) {
-                     for (const std::string* field :
-                          {&parameters.field, &parameters.initial.field_name})
-                       forecast.run(pcl_uvol::derivedFieldNeed(*field, points, step));
-                     forecastMemory(parameters, has_snapshots, {})(
-                         points, step, forecast);
-                   });
+  const auto work = [&](double points,
+                        double step,
+                        pcl_uvol::MemoryForecast& forecast) {
+    for (const std::string* field : {&parameters.field, &parameters.initial.field_name})
+      forecast.run(pcl_uvol::derivedFieldNeed(*field, points, step));
+    forecastMemory(parameters, has_snapshots, {})(points, step, forecast);
+  };
+  if (where.empty())
+    memory.checkFile(arguments.input, work, load);
+  else
+    memory.checkFile(arguments.input, nullptr, load);
 
   Report report;
   uvol_tools::ProgressBar bar;
   report.progress = std::ref(bar);
   auto total = std::make_unique<StepTimer>(report, "total");
   pcl_uvol::Dataset dataset =
-      uvol_tools::loadPoints(arguments.input, report, uvol_tools::withScale(options));
-  const std::size_t points = dataset.cloud.width;
+      uvol_tools::loadPoints(arguments.input, report, load, where, options.threads());
+  const std::size_t points = dataset.cloud.width + report.getCount("removed_by_where");
   const auto sides = arguments.periodic.findSides(dataset, report);
   uvol_tools::addField(dataset, parameters.field, options, report, sides);
   uvol_tools::addField(dataset, parameters.initial.field_name, options, report, sides);

@@ -93,6 +93,8 @@ check(const Options& options, Arguments& arguments)
                                  "scale",
                                  "rotate",
                                  "xyz",
+                                 "particles",
+                                 "cells",
                                  "outside",
                                  "smooth",
                                  "drop-pieces",
@@ -168,7 +170,7 @@ extractSurface(const Options& options,
       std::make_shared<Dataset>(uvol_tools::loadPoints(arguments.input,
                                                        report,
                                                        arguments.makeLoadOptions(),
-                                                       arguments.where,
+                                                       arguments.getWhere(),
                                                        options.threads()));
   arguments.resolveSpacing(*samples);
   uvol_tools::addField(

@@ -69,6 +69,7 @@ run(int argc, char** argv)
   std::string input, output;
   std::vector<double> view_point;
   uvol_tools::ScaleOption scale;
+  uvol_tools::InputOptions reading;
   std::uint64_t k = 30;
   bool ascii = false;
   uvol_tools::Options options(
@@ -79,6 +80,8 @@ run(int argc, char** argv)
       "nearest neighbours.\nNormals that the file has orient the new ones.");
   options.file("in", input);
   options.file("out", output);
+  options.group("Input");
+  reading.declare(options);
   options.group("Normals");
   options.integer("k", k, 2, 10000, "nearest neighbours besides the point");
   options.numbers("viewpoint",
@@ -92,15 +95,17 @@ run(int argc, char** argv)
   if (!options.parse(argc, argv))
     return 0;
   scale.finish(options);
+  const pcl_uvol::LoadOptions load = reading.makeLoadOptions();
+  const std::string& where = reading.getWhere();
   pcl_uvol::checkSavePath(output);
   uvol_tools::MemoryGuard memory("Estimating normals");
-  memory.checkFile(input, forecastMemory(k));
+  memory.checkFile(input, where.empty() ? forecastMemory(k) : nullptr, load);
 
   Report report;
   uvol_tools::ProgressBar bar;
   report.progress = std::ref(bar);
   const pcl_uvol::Dataset dataset =
-      uvol_tools::loadPoints(input, report, uvol_tools::withScale(options));
+      uvol_tools::loadPoints(input, report, load, where, options.threads());
   pcl_uvol::checkSavePath(output, dataset.cloud.fields);
   memory.checkCloud(dataset, forecastMemory(k));
   pcl_uvol::SurfaceNormalParameters parameters;

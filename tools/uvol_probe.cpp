@@ -46,7 +46,7 @@ using uvol_tools::UsageError;
 using Kind = uvol_tools::QueryOptions::Kind;
 
 struct Arguments {
-  std::string input, output, where;
+  std::string input, output;
   uvol_tools::InputOptions reading;
   uvol_tools::PeriodicOption periodic;
   uvol_tools::QueryOptions queries;
@@ -67,10 +67,6 @@ declare(Options& options, Arguments& arguments)
   options.group("Model");
   arguments.model.declare(options);
   options.group("Input");
-  options.text("where",
-               "expr",
-               arguments.where,
-               "use only the samples for which it holds: \"experiment=1 && T>4\"");
   arguments.reading.declare(options);
   arguments.periodic.declare(options);
   options.group("Output");
@@ -229,7 +225,7 @@ run(int argc, char** argv, uvol_tools::SeriesStep* step)
   const Kind kind = arguments.queries.getKind();
   const pcl_uvol::LoadOptions load = arguments.reading.makeLoadOptions();
   uvol_tools::MemoryGuard memory("Interpolation");
-  if (arguments.where.empty())
+  if (arguments.reading.getWhere().empty())
     memory.checkFile(arguments.input,
                      forecastMemory(arguments, 1.0, findQuerySize(arguments, nullptr)),
                      load);
@@ -240,8 +236,8 @@ run(int argc, char** argv, uvol_tools::SeriesStep* step)
   uvol_tools::ProgressBar bar;
   report.progress = std::ref(bar);
   auto total = std::make_unique<StepTimer>(report, "total");
-  Dataset samples =
-      uvol_tools::loadPoints(arguments.input, report, load, arguments.where);
+  Dataset samples = uvol_tools::loadPoints(
+      arguments.input, report, load, arguments.reading.getWhere());
   report.count("points", samples.cloud.width + report.getCount("removed_by_where"));
   const pcl_uvol::SamplesInBox boxed(samples,
                                      arguments.periodic.findSides(samples, report),

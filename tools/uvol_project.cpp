@@ -28,6 +28,7 @@ struct Arguments {
   std::string input, output, axes, picture, label, view = "top";
   pcl_uvol::ProjectionMethod method = pcl_uvol::ProjectionMethod::Star;
   uvol_tools::AttributeOptions attributes;
+  uvol_tools::InputOptions reading;
   uvol_tools::SizeOption size;
   bool ascii = false;
 };
@@ -39,6 +40,7 @@ declare(Options& options, Arguments& arguments)
   options.file("out", arguments.output);
   options.group("Input");
   arguments.attributes.declare(options);
+  arguments.reading.declare(options);
   options.group("Projection");
   options.choice("method",
                  arguments.method,
@@ -105,6 +107,8 @@ run(int argc, char** argv)
   if (!options.parse(argc, argv))
     return 0;
   arguments.attributes.required();
+  pcl_uvol::LoadOptions load = uvol_tools::withoutPositions(arguments.reading);
+  load.may_mix_units = true; // attributes are in standard deviations
   pcl_uvol::checkSavePath(arguments.output);
   if (arguments.axes == arguments.output)
     throw UsageError("-axes and the output are the same file.");
@@ -117,9 +121,8 @@ run(int argc, char** argv)
   Report report;
   uvol_tools::ProgressBar bar;
   report.progress = std::ref(bar);
-  pcl_uvol::LoadOptions load = uvol_tools::withoutPositions(options);
-  load.may_mix_units = true; // attributes are in standard deviations
-  pcl_uvol::Dataset dataset = uvol_tools::loadPoints(arguments.input, report, load);
+  pcl_uvol::Dataset dataset = uvol_tools::loadPoints(
+      arguments.input, report, load, arguments.reading.getWhere(), options.threads());
   arguments.attributes.addFields(options, dataset, report);
   pcl_uvol::checkSavePath(arguments.output, dataset.cloud.fields);
   const pcl_uvol::ProjectedPoints found = arguments.attributes.project(

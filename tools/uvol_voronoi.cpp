@@ -31,6 +31,7 @@ struct Arguments {
   double inner_radius = 2.0;
   std::uint64_t triangles = 6, slices = 6, margin = 0;
   uvol_tools::SizeOption size;
+  uvol_tools::InputOptions reading;
 };
 
 void
@@ -38,6 +39,8 @@ declare(Options& options, Arguments& arguments)
 {
   options.file("in", arguments.input);
   options.file("out", arguments.output);
+  options.group("Input");
+  arguments.reading.declare(options);
   options.group("Grid");
   options.text("grid",
                "n|NxNxN",
@@ -150,6 +153,7 @@ run(int argc, char** argv)
   const std::vector<std::uint32_t> cells = parseGrid(arguments.grid);
   if (cells.size() == 3 && arguments.margin > 0)
     throw UsageError("-margin is for cubic cells: give -grid one number.");
+  const pcl_uvol::LoadOptions load = arguments.reading.makeLoadOptions();
   pcl_uvol::checkGridPath(arguments.output);
   if (options.given("device") && arguments.backend != "egl")
     throw UsageError("-device is a graphics card, which -backend egl draws on.");
@@ -162,7 +166,8 @@ run(int argc, char** argv)
   Report report;
   uvol_tools::ProgressBar bar;
   report.progress = std::ref(bar);
-  const pcl_uvol::Dataset dataset = uvol_tools::loadPoints(arguments.input, report);
+  const pcl_uvol::Dataset dataset = uvol_tools::loadPoints(
+      arguments.input, report, load, arguments.reading.getWhere(), options.threads());
   report.count("points", dataset.cloud.width);
   const auto grid = computeDiagram(options, arguments, cells, dataset, report);
   {

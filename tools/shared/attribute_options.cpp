@@ -123,9 +123,9 @@ AttributeOptions::checkPosition(const pcl_uvol::Dataset& dataset) const
 }
 
 pcl_uvol::LoadOptions
-withoutPositions(const Options& options)
+withoutPositions(const InputOptions& reading)
 {
-  pcl_uvol::LoadOptions load = withScale(options);
+  pcl_uvol::LoadOptions load = reading.makeLoadOptions();
   load.needs_coordinates = false;
   return load;
 }

@@ -4,6 +4,7 @@
 
 #include "common/memory.h"
 #include "shared/options.h"
+#include "shared/point_files.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/multivariate/density_clustering.h>
@@ -77,7 +78,7 @@ private:
 
 /** \brief How files of attributes are read: they need no coordinates. */
 pcl_uvol::LoadOptions
-withoutPositions(const Options& options);
+withoutPositions(const InputOptions& reading);
 
 /** \brief The field of labels: the one that is asked for, else "label" if there is one,
  * else "". */

@@ -23,10 +23,6 @@ IsosurfaceOptions::declareSamples(Options& options,
                "scalar field: density, vel[1], |vel|, |vx,vy,vz|, or an expression: "
                "log10(rho), rho*u, |grad(rho)|, Q(vel) (default: intensity, else the "
                "only candidate)");
-  options.text("where",
-               "expr",
-               where,
-               "use only the points for which it holds: \"experiment=1 && T>4\"");
   scale_.declare(
       options, "distances", automatic ? AutomaticScale::Field : AutomaticScale::None);
   input_files_.declare(options);

@@ -17,11 +17,11 @@ namespace uvol_tools {
 /** \brief Options that fill the parameters of the pipeline. */
 struct IsosurfaceOptions {
   pcl_uvol::IsosurfacePipelineParameters parameters;
-  std::string where;
 
   IsosurfaceOptions();
 
-  /** \brief -iso, -field, -where, -scale, -rotate, -xyz, -particles, -outside.
+  /** \brief -iso, -field, -where, -scale, -rotate, -xyz, -particles, -cells,
+   * -outside.
    *
    * \param automatic -scale finds factors, and there is -rotate
    *
@@ -53,6 +53,12 @@ struct IsosurfaceOptions {
   /** \throws UsageError for columns that are none */
   pcl_uvol::LoadOptions
   makeLoadOptions() const;
+
+  const std::string&
+  getWhere() const
+  {
+    return input_files_.getWhere();
+  }
 
 private:
   ScaleOption scale_;

@@ -40,6 +40,10 @@ void
 InputOptions::declare(Options& options)
 {
   options_ = &options;
+  options.text("where",
+               "expr",
+               where_,
+               "use only the points for which it holds: \"experiment=1 && T>4\"");
   options.text("xyz",
                "x,y,z",
                xyz_,
@@ -63,19 +67,12 @@ InputOptions::declare(Options& options)
 pcl_uvol::LoadOptions
 InputOptions::makeLoadOptions() const
 {
-  pcl_uvol::LoadOptions options = withScale(*options_);
+  pcl_uvol::LoadOptions options;
+  options.may_mix_units = options_->given("scale");
   options.xyz_columns = parseColumns(xyz_);
   options.particles = particles_;
   options.cells = cells_;
   return options;
-}
-
-pcl_uvol::LoadOptions
-withScale(const Options& options)
-{
-  pcl_uvol::LoadOptions load;
-  load.may_mix_units = options.given("scale");
-  return load;
 }
 
 pcl_uvol::Dataset

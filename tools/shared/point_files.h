@@ -12,27 +12,32 @@
 
 namespace uvol_tools {
 
-/** \brief What is read of a file: -xyz, the columns of a text file that hold the
- * coordinates, and -particles, the kind that is read of a snapshot. */
+/** \brief What is read of a file: -where, the points for which that holds, -xyz, the
+ * columns of a text file that hold the coordinates, -particles, the kind that is read
+ * of a snapshot, and -cells. */
 class InputOptions {
 public:
   void
   declare(Options& options);
 
-  /** \throws UsageError unless three columns are named, or none */
+  /** \brief How files are read; -scale, where a tool has it, makes up for axes of
+   * several units.
+   * \throws UsageError unless three columns are named, or none */
   pcl_uvol::LoadOptions
   makeLoadOptions() const;
 
+  /** \brief For loadPoints(); "": all points. */
+  const std::string&
+  getWhere() const
+  {
+    return where_;
+  }
+
 private:
   const Options* options_ = nullptr; ///< of the tool
-  std::string xyz_, particles_;
+  std::string where_, xyz_, particles_;
   bool cells_ = false;
 };
-
-/** \brief How a file is read by a tool with the option -scale, which makes up for axes
- * of several units. */
-pcl_uvol::LoadOptions
-withScale(const Options& options);
 
 /** \brief Read a file, as a step of the report; its notes become warnings.
  * \param where keep only the points for which that holds, see selectRows; "": all

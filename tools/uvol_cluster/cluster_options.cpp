@@ -18,10 +18,7 @@ ClusterOptions::declare(Options& options)
   options.file("out", output);
   options.group("Input");
   attributes.declare(options);
-  options.text("where",
-               "expr",
-               where,
-               "use only the points for which it holds: \"cu>=0.6 && ni>0.1\"");
+  reading.declare(options);
   options.group("Clusters");
   options.integer("k", k, 0, 1000, "nearest neighbours that tell the density");
   options.integer("min-size",

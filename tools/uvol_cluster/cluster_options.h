@@ -15,8 +15,9 @@ namespace uvol_tools {
 /** \brief What the command line asks for. */
 struct ClusterOptions {
   ScaleOption scale;
-  std::string input, output, where, label, tree, surface, probability, smoothing;
+  std::string input, output, label, tree, surface, probability, smoothing;
   AttributeOptions attributes;
+  InputOptions reading;
   std::uint64_t k = 10, min_size = 0, grid = 128;
   double cut = 0.0, distance = 0.0;
   std::vector<double> cluster;

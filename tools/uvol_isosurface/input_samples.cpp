@@ -68,7 +68,7 @@ loadSamples(const Options& options,
       std::make_shared<pcl_uvol::Dataset>(loadPoints(arguments.input,
                                                      report,
                                                      arguments.makeLoadOptions(),
-                                                     arguments.where,
+                                                     arguments.getWhere(),
                                                      options.threads()));
   report.count("points", samples->cloud.width + report.getCount("removed_by_where"));
   memory.checkCloud(

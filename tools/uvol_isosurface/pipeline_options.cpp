@@ -138,8 +138,9 @@ PipelineOptions::needsAllSamples() const
   return hasFieldsOfNeighbors() || periodic.isAskedFor() ||
          std::isfinite(outside_value) || parameters.smooth ||
          parameters.automatic_scale || getScale().isFromSpacing() ||
-         isTurned(parameters) || !where.empty() || parameters.validation.folds > 0 ||
-         parameters.mesh || parameters.fill_gaps || mesh_.isMeasured() ||
+         isTurned(parameters) || !getWhere().empty() ||
+         parameters.validation.folds > 0 || parameters.mesh || parameters.fill_gaps ||
+         mesh_.isMeasured() ||
          parameters.isosurface.neighbors != NeighborSource::KdTree;
 }
 

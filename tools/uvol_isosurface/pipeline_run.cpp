@@ -69,7 +69,7 @@ runInMemory(const Options& options,
         addFieldsNeed(arguments, points, step, forecast);
         pcl_uvol::addMemoryNeed(arguments.parameters, points, step, {}, 0.0, forecast);
       };
-  if (arguments.where.empty())
+  if (arguments.getWhere().empty())
     memory.checkFile(arguments.input, work, arguments.makeLoadOptions());
   else
     memory.checkFile(arguments.input, nullptr, arguments.makeLoadOptions());
