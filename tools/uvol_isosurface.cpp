@@ -98,6 +98,7 @@ struct Job {
         memory ? runInMemory(options, arguments, *memory, report, figures)
                : runFromDisk(options, arguments, report);
     report.merge(result.report);
+    uvol_tools::warnOfConflicts(report.getCount("samples"), 1, report);
     arguments.picture.addColor(options, result.surface, report);
 
     const auto& isovalues = arguments.parameters.isosurface.isovalues;

@@ -116,6 +116,7 @@ load(Arguments& arguments,
   std::string& field = arguments.parameters.isosurface.field;
   if (!field.empty())
     field = pcl_uvol::addDerivedField(part, field, options, report);
+  uvol_tools::refuseNames(part, field);
   return part;
 }
 
@@ -230,6 +231,7 @@ run(int argc, char** argv, pcl_uvol::Communicator& communicator)
       mergeReports(report,
                    communicator,
                    {"bytes_redistributed", "bytes_exchanged", "bytes_of_fields"});
+  uvol_tools::warnOfConflicts(together.getCount("samples"), 1, together);
   uvol_tools::Facts facts{{"input", joined(arguments.inputs)},
                           {"output", arguments.output},
                           {"processes", static_cast<double>(communicator.size())}};

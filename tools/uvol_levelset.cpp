@@ -318,8 +318,10 @@ run(int argc, char** argv)
       uvol_tools::loadPoints(arguments.input, report, load, where, options.threads());
   const std::size_t points = dataset.cloud.width + report.getCount("removed_by_where");
   const auto sides = arguments.periodic.findSides(dataset, report);
-  uvol_tools::addField(dataset, parameters.field, options, report, sides);
-  uvol_tools::addField(dataset, parameters.initial.field_name, options, report, sides);
+  for (std::string* field : {&parameters.field, &parameters.initial.field_name}) {
+    uvol_tools::addField(dataset, *field, options, report, sides);
+    uvol_tools::refuseNames(dataset, *field);
+  }
   uvol_tools::Facts of_scale;
   const auto stretch = arguments.scale.resolve(
       pcl_uvol::viewOf(dataset.cloud),
@@ -377,6 +379,7 @@ run(int argc, char** argv)
   evolution.evolve(result.cloud);
   boxed.dropImages(result);
   report.merge(evolution.getReport());
+  uvol_tools::warnOfConflicts(report.getCount("samples"), 1, report);
   const pcl_uvol::LevelSetSummary& summary = evolution.getSummary();
 
   pcl_uvol::SaveOptions save;

@@ -291,6 +291,9 @@ run(int argc, char** argv, uvol_tools::SeriesStep* step)
   if (kind != Kind::None || arguments.variogram.isAskedFor()) {
     const FieldInterpolator interpolator(
         view, indices, parameters, options.threads(), report);
+    uvol_tools::warnOfConflicts(samples.cloud.width - report.getCount("duplicates"),
+                                parameters.fields.size(),
+                                report);
     const bool is_stretched = (parameters.scale != 1.0f).any();
     for (const Fact& fact : arguments.variogram.write(interpolator, is_stretched))
       facts.push_back(fact);

@@ -73,6 +73,19 @@ const std::pair<const char*, const char*> jobs[] = {
 
 const std::string chosen = "-xyz ix,iy,iz -where \"experiment=1 && site='low'\" ";
 
+/** How often a sentence stands in the warnings. */
+std::size_t
+countWarnings(const CommandResult& result, const std::string& sentence)
+{
+  std::size_t count = 0;
+  for (std::size_t at = result.err.find(sentence); at != std::string::npos;
+       at = result.err.find(sentence, at + 1))
+    ++count;
+  return count;
+}
+
+const std::string conflicts = "several lie whose values differ";
+
 } // namespace
 
 TEST_F(InputOptions, AreThoseOfEveryTool)
@@ -100,4 +113,48 @@ TEST_F(InputOptions, ChooseTheSamplesThatLevelSetsAndNormalsKeep)
     for (const double z : uvol_test::fieldOf(kept, "z"))
       EXPECT_LT(z, 4.0) << job;
   }
+}
+
+TEST_F(InputOptions, TellOfSamplesThatContradictEachOther)
+{
+  for (const std::string job : {"isosurface in.csv out.ply -field t -iso 9 ",
+                                "isosurface in.csv out.ply -field t -iso 8,9 -smooth ",
+                                "isosurface in.csv out.ply -field t -iso 9 -mesh ",
+                                "levelset in.csv out.ply -field t -iso 9 -steps 3 ",
+                                "measure in.csv -field t -iso 9 ",
+                                "probe in.csv out.csv -field t,label -grid 3x3x3 "}) {
+    const auto all = runTool(job + "-xyz ix,iy,iz");
+    EXPECT_EQ(1u, countWarnings(all, conflicts)) << job << all.err;
+    EXPECT_NE(std::string::npos, all.err.find("of the 729 places")) << all.err;
+    const auto one = runTool(job + "-xyz ix,iy,iz -where experiment=1");
+    EXPECT_EQ(0u, countWarnings(one, conflicts)) << job << one.err;
+  }
+  write("in.csv", makeExperiments(0.0)); // the same twice is no contradiction
+  EXPECT_EQ(0u,
+            countWarnings(run("isosurface", "out.ply -field t -iso 9 -xyz ix,iy,iz"),
+                          conflicts));
+}
+
+TEST_F(InputOptions, TakeNoNamesForValues)
+{
+  const std::string places = "-xyz ix,iy,iz ";
+  for (const std::string options : {"out.ply -field site -iso 0.5 ",
+                                    "out.ply -field '\"site\"' -iso 0.5 ",
+                                    "out.ply -field site -iso 0.5 -max-memory 500M "})
+    expectRefused("isosurface", options + places, 1, "'site' holds names");
+  expectRefused(
+      "levelset", "out.ply -field site -iso 0.5 " + places, 1, "'site' holds names");
+  expectRefused(
+      "probe", "out.csv -field site -grid 3x3x3 " + places, 1, "'site' holds names");
+  expectRefused("measure", "-field site -iso 0.5 " + places, 1, "'site' holds names");
+  expectRefused(
+      "cluster", "out.csv -attributes t,site " + places, 1, "'site' holds names");
+}
+
+TEST_F(InputOptions, DoNotPredictTheStepToTheValueOutside)
+{
+  expectRefused("isosurface",
+                "out.ply -field t -iso 9 -fill-gaps -outside-value 0",
+                2,
+                "-fill-gaps goes without -outside-value");
 }

@@ -53,8 +53,10 @@ AttributeOptions::addFields(const Options& options,
                             pcl_uvol::Report& report)
 {
   names_ = parseNames("attributes", text_);
-  for (std::string& name : names_)
+  for (std::string& name : names_) {
     addField(dataset, name, options, report);
+    refuseNames(dataset, name);
+  }
 }
 
 void

@@ -8,6 +8,8 @@
 #include <pcl_uvol/io/dataset.h>
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <string>
 
 namespace uvol_tools {
@@ -50,6 +52,11 @@ loadPoints(const std::string& path,
            const std::string& where = "",
            unsigned threads = 0);
 
+/** \brief Names have no values between them.
+ * \throws InvalidArgument for a column of names */
+void
+refuseNames(const pcl_uvol::Dataset& samples, const std::string& field);
+
 /** \brief Make sure that samples have the field that an option names, see
  * addDerivedField.
  * \param name becomes what stages call it; "" stays ""
@@ -69,6 +76,14 @@ addField(pcl_uvol::Dataset& points,
          const std::string& because,
          const Options& options,
          pcl_uvol::Report& report);
+
+/** \brief Warn where more than a few of the places of samples have several values, as
+ * those of repeated experiments do.
+ * \param samples places
+ * \param fields that were counted together
+ * \param report has the count "conflicting_duplicates" */
+void
+warnOfConflicts(std::uint64_t samples, std::size_t fields, pcl_uvol::Report& report);
 
 /** \brief Warn of columns of names that a file has no place for. */
 void

@@ -84,6 +84,7 @@ loadSamples(const Options& options,
   if (arguments.density.isAskedFor() && arguments.parameters.isosurface.field.empty())
     arguments.parameters.isosurface.field = "sph_density";
   addField(*samples, arguments.parameters.isosurface.field, options, report, sides);
+  refuseNames(*samples, arguments.parameters.isosurface.field);
   if (std::isfinite(arguments.outside_value))
     addOuterLayer(options, arguments, *samples, report);
   arguments.picture.addColorOfSamples(options, *samples, report, sides);

@@ -187,6 +187,10 @@ PipelineOptions::checkCombinations(const Options& options) const
         "-periodic goes without -outside-value, -validate and -fill-gaps: "
         "there is no outside, images would tell what was left out, and what "
         "kriging adds has none.");
+  if (std::isfinite(outside_value) && parameters.fill_gaps)
+    throw UsageError(
+        "-fill-gaps goes without -outside-value: kriging would predict the "
+        "step to it.");
   if (!parameters.mesh)
     return;
   if (!fits || parameters.isosurface.neighbors != NeighborSource::KdTree ||

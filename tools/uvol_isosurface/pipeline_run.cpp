@@ -124,6 +124,7 @@ runFromDisk(const Options& options, const PipelineOptions& arguments, Report& re
   pcl_uvol::IsosurfacePipelineParameters parameters = arguments.parameters;
   pcl_uvol::DerivedSource points(file, parameters.isosurface.field, options.threads());
   parameters.isosurface.field = points.getField();
+  refuseNames(points.getHeader(), parameters.isosurface.field);
   checkOutput(arguments, points.getHeader());
   report.warnings = points.getHeader().notes;
   report.count("points", points.size());

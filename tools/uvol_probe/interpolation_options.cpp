@@ -176,8 +176,10 @@ InterpolationOptions::resolve(const Options& options,
     parameters.fields = pcl_uvol::listScalars(pcl_uvol::listNumberFields(samples));
   else
     parameters.fields = parseNames("field", fields_);
-  for (std::string& field : parameters.fields)
+  for (std::string& field : parameters.fields) {
     addField(samples, field, options, report);
+    refuseNames(samples, field);
+  }
   // The first one of several fields tells how distances are measured.
   const auto stretch = scale_.resolve(pcl_uvol::viewOf(samples.cloud),
                                       parameters.fields.front(),
