@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "render/camera_choice.h"
 
-#include "render/camera_fit.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <Eigen/Geometry>
@@ -22,6 +21,14 @@ upwardsOf(const Camera& camera)
                                              : Eigen::Vector3d::UnitY();
 }
 
+/** What a camera turns about: one that has its place about its own upward direction,
+ * views about that of the world. */
+Eigen::Vector3d
+axisOf(const CameraChoice& choice, const Camera& camera)
+{
+  return choice.eye ? camera.up : choice.up.value_or(Eigen::Vector3d::UnitZ());
+}
+
 /** A named view of the world turned so that what was z is another direction. */
 Camera
 turnedUpwards(Camera camera, const Eigen::Vector3d& up)
@@ -40,13 +47,13 @@ Camera
 fitToSurface(const Camera& camera,
              const SeenSurface& seen,
              double aspect,
-             double fill,
-             bool turns)
+             const ImageFill& fill,
+             const std::optional<Eigen::Vector3d>& axis)
 {
   if (seen.cloud == nullptr)
     return camera;
   const auto fit = [&](const std::vector<FittedDisc>& discs) {
-    return fitToPoints(camera, {*seen.cloud, discs, turns}, aspect, fill);
+    return fitToPoints(camera, {*seen.cloud, discs, axis}, aspect, fill);
   };
   Camera fitted = fit({});
   if (!seen.find_discs)
@@ -67,7 +74,7 @@ chooseCamera(const CameraChoice& choice,
                               choice.view,
                               is_far ? Camera::parallel_fov : choice.fov,
                               aspect,
-                              choice.fill);
+                              choice.fill.least());
   if (choice.eye) {
     camera.eye = *choice.eye - shift;
     if (choice.at)
@@ -79,9 +86,21 @@ chooseCamera(const CameraChoice& choice,
   else {
     if (choice.up)
       camera = turnedUpwards(camera, *choice.up);
-    camera = fitToSurface(camera, seen, aspect, choice.fill, choice.turns);
+    const auto axis =
+        choice.turns ? std::optional(axisOf(choice, camera)) : std::nullopt;
+    camera = fitToSurface(camera, seen, aspect, choice.fill, axis);
   }
   return zoomed(camera, choice.zoom);
+}
+
+Camera
+orbit(const CameraChoice& choice, Camera camera, double angle)
+{
+  constexpr double degree = 3.14159265358979323846 / 180.0;
+  const Eigen::AngleAxisd turn(angle * degree, axisOf(choice, camera).normalized());
+  camera.eye = camera.at + turn * (camera.eye - camera.at);
+  camera.up = turn * camera.up;
+  return camera;
 }
 
 Camera

@@ -2,6 +2,7 @@
 // The camera that users ask for in a few words: from a side, or from a place.
 #pragma once
 
+#include "render/camera_fit.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/render/renderer.h>
@@ -29,7 +30,7 @@ struct CameraChoice {
    * around the point looked at. */
   bool is_parallel = false;
   double zoom = 1.0; ///< of the middle of the picture
-  double fill = 0.9; ///< part of the picture that a view fills
+  ImageFill fill;    ///< by a view
   /** The camera turns all around: a view fills the picture from everywhere. */
   bool turns = false;
 };
@@ -47,14 +48,13 @@ struct SeenSurface {
 /** \brief Move a camera to where a surface fills the picture, as fitToPoints() does.
  * The discs of points are found only if they are to be seen: from where all points are.
  * \param aspect width / height
- * \param fill part of the picture that is filled
- * \param turns the camera turns all around: it fills the picture from everywhere */
+ * \param axis the camera turns all around it: the picture is filled from everywhere */
 PCL_UVOL_EXPORTS Camera
 fitToSurface(const Camera& camera,
              const SeenSurface& seen,
              double aspect,
-             double fill = 0.9,
-             bool turns = false);
+             const ImageFill& fill = {},
+             const std::optional<Eigen::Vector3d>& axis = std::nullopt);
 
 /** \brief The camera of a choice.
  * \param seen what it is chosen for
@@ -66,6 +66,12 @@ chooseCamera(const CameraChoice& choice,
              const SeenSurface& seen,
              const std::array<double, 3>& origin,
              double aspect);
+
+/** \brief The camera of a choice turned about the direction that is upwards, which for
+ * views is that of all of them: one from the top still looks from there.
+ * \param angle degrees */
+PCL_UVOL_EXPORTS Camera
+orbit(const CameraChoice& choice, Camera camera, double angle);
 
 /** \brief The same camera with the middle of its picture enlarged. */
 PCL_UVOL_EXPORTS Camera

@@ -16,17 +16,18 @@ constexpr double pi = 3.14159265358979323846;
 
 /** Right, left, below and above of the image. */
 constexpr std::size_t sides = 4;
+using Sides = std::array<double, sides>;
 
 /** Largest values of linear functions over discs in the directions of a camera. */
 class Extremes {
 public:
-  /** \param slopes of the image's planes, to its right and below */
-  explicit Extremes(const std::array<double, 2>& slopes)
-      : sq_lengths_{1.0 + slopes[0] * slopes[0], 1.0 + slopes[1] * slopes[1]}
+  /** \param slopes of the image's planes */
+  explicit Extremes(const Sides& slopes)
   {
     for (std::size_t side = 0; side < sides; ++side) {
       const auto axis = static_cast<Eigen::Index>(side / 2);
-      planes_[side] = Eigen::Vector3d(0.0, 0.0, -slopes[side / 2]);
+      sq_lengths_[side] = 1.0 + slopes[side] * slopes[side];
+      planes_[side] = Eigen::Vector3d(0.0, 0.0, -slopes[side]);
       planes_[side][axis] = side % 2 == 0 ? 1.0 : -1.0;
     }
     beyond_.fill(-std::numeric_limits<double>::infinity());
@@ -38,7 +39,7 @@ public:
   {
     for (std::size_t side = 0; side < sides; ++side) {
       const double across = planes_[side].dot(normal);
-      const double sq_within = sq_lengths_[side / 2] - across * across;
+      const double sq_within = sq_lengths_[side] - across * across;
       extend(side,
              planes_[side].dot(center) + radius * std::sqrt(std::max(sq_within, 0.0)));
     }
@@ -58,7 +59,7 @@ public:
       return height * along + distance * (plane - along * axis).norm();
     };
     for (std::size_t side = 0; side < sides; ++side)
-      extend(side, largest(planes_[side]) + radius * std::sqrt(sq_lengths_[side / 2]));
+      extend(side, largest(planes_[side]) + radius * std::sqrt(sq_lengths_[side]));
     const Eigen::Vector3d forward = Eigen::Vector3d::UnitZ();
     nearest_ = std::min(nearest_, -largest(-forward) - radius);
     farthest_ = std::max(farthest_, largest(forward) + radius);
@@ -90,9 +91,9 @@ private:
     beyond_[side] = std::max(beyond_[side], value);
   }
 
-  std::array<double, 2> sq_lengths_; ///< of planes_
+  Sides sq_lengths_; ///< of planes_
   std::array<Eigen::Vector3d, sides> planes_;
-  std::array<double, sides> beyond_;
+  Sides beyond_;
   double nearest_ = std::numeric_limits<double>::infinity(), farthest_ = -nearest_;
 };
 
@@ -117,16 +118,21 @@ Camera
 fitToPoints(const Camera& camera,
             const FittedPoints& points,
             double aspect,
-            double fill)
+            const ImageFill& fill)
 {
   // A point x is in the image of a camera at e if |x - e|_x <= slope (x - e)_z: all of
   // them are if e lies behind four planes that touch the points from outside.
   const Eigen::Matrix3d turn = camera.rotation();
-  const double slope_y = fill * std::tan(camera.vertical_fov * pi / 360.0);
-  const double slope_x = slope_y * aspect;
-  const Eigen::Vector3d axis = (turn * camera.up).normalized();
-  Eigen::Vector3d center = camera.at;
-  if (points.turn) {
+  const double half_y = std::tan(camera.vertical_fov * pi / 360.0),
+               half_x = half_y * aspect;
+  Sides slopes{
+      fill.right * half_x, fill.left * half_x, fill.bottom * half_y, fill.top * half_y};
+  if (points.axis)
+    for (const std::size_t first : {0u, 2u})
+      slopes[first] = slopes[first + 1] = std::min(slopes[first], slopes[first + 1]);
+  Eigen::Vector3d axis = Eigen::Vector3d::Zero(), center = camera.at;
+  if (points.axis) {
+    axis = (turn * *points.axis).normalized();
     Eigen::AlignedBox3d box;
     forPoints(points, [&](const Eigen::Vector3d& point, const FittedDisc&) {
       box.extend(point);
@@ -134,24 +140,31 @@ fitToPoints(const Camera& camera,
     if (!box.isEmpty())
       center = box.center();
   }
-  Extremes most({slope_x, slope_y});
+  Extremes most(slopes);
   forPoints(points, [&](const Eigen::Vector3d& point, const FittedDisc& disc) {
     const Eigen::Vector3d seen = turn * (point - center);
-    if (points.turn)
+    if (points.axis)
       most.addRing(seen, disc.radius, axis);
     else
       most.add(
           seen, disc.radius, turn * Eigen::Vector3f(disc.normal.data()).cast<double>());
   });
-  const double behind = std::max((most.beyond(0) + most.beyond(1)) / (2.0 * slope_x),
-                                 (most.beyond(2) + most.beyond(3)) / (2.0 * slope_y));
+  const auto leastBehind = [&](std::size_t first) {
+    return (most.beyond(first) + most.beyond(first + 1)) /
+           (slopes[first] + slopes[first + 1]);
+  };
+  const double behind = std::max(leastBehind(0), leastBehind(2));
   if (!(behind + most.nearest() > 0.0) || !std::isfinite(behind))
     return camera;
-  const Eigen::Vector3d eye(0.5 * (most.beyond(0) - most.beyond(1)),
-                            0.5 * (most.beyond(2) - most.beyond(3)),
-                            -behind);
-  // What a turning camera looks at stays on the axis.
-  const double depth = points.turn ? eye.y() / axis.y() * axis.z() : most.middle();
+  const auto middleOf = [&](std::size_t first) {
+    return 0.5 * (most.beyond(first) - most.beyond(first + 1) +
+                  (slopes[first + 1] - slopes[first]) * behind);
+  };
+  const Eigen::Vector3d eye(middleOf(0), middleOf(2), -behind);
+  // What a turning camera looks at stays on the axis, which may be its line of sight.
+  constexpr double least_sine = 1e-6;
+  const double depth =
+      std::abs(axis.y()) > least_sine ? eye.y() / axis.y() * axis.z() : most.middle();
   Camera fitted = camera;
   fitted.eye = center + turn.transpose() * eye;
   fitted.at = center + turn.transpose() * Eigen::Vector3d(eye.x(), eye.y(), depth);

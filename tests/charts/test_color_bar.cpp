@@ -93,6 +93,35 @@ TEST(ColorBar, HasRoomBesideThePicture)
   EXPECT_EQ(0, uvol_tools::colorBarWidth(100, 2000));
 }
 
+TEST(ColorBar, BreaksALongTitle)
+{
+  const std::string title = "A rather long label for a colour bar (kg m-2 s-1)";
+  for (const auto& [width, height] : {std::pair(1024, 1024), std::pair(400, 300)})
+    for (const std::string& text : {title, std::string(2000, 'x')}) {
+      Image image = makePlain(
+          static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), 255);
+      const uvol_tools::TextKeeper keeper;
+      uvol_tools::drawColorBar(image, ColorMap(), {0.0, 1.0}, text);
+      std::string whole;
+      double lowest = 0.0;
+      for (const uvol_tools::TextLine& line : keeper.getLines()) {
+        const Eigen::AlignedBox2d box = uvol_tools::boxAround(line);
+        EXPECT_GE(box.min().x(), width - uvol_tools::colorBarWidth(width, height) - 8);
+        EXPECT_GE(box.min().y(), 0.0);
+        EXPECT_LT(box.max().y(), height);
+        if (line.text.empty() || line.text.find_first_of("01") == 0)
+          continue;
+        EXPECT_GE(box.min().y() + 1.0, lowest); // below the line before
+        lowest = box.max().y();
+        whole += (whole.empty() ? "" : " ") + line.text;
+      }
+      if (text == title)
+        EXPECT_EQ(title, whole);
+      else
+        EXPECT_EQ("x ..", whole.substr(whole.size() - 4));
+    }
+}
+
 TEST(AxisLabels, TellValuesApart)
 {
   using uvol_tools::labelValues;

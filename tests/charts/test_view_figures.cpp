@@ -2,6 +2,7 @@
 // Boxes, axes, directions and lengths in pictures of surfaces.
 #include "charts/data_box.h"
 #include "charts/figure.h"
+#include "charts/text_wrap.h"
 #include "charts/view_marks.h"
 #include <pcl_uvol/render/image_space/image_space_renderer.h>
 
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -169,25 +171,14 @@ valuesAlongX(double low, double high, int font)
   box.box.min().x() = low;
   box.box.max().x() = high;
   const double middle = 0.5 * (low + high), size = high - low;
-  box.box.min().z() = -size; // its values stand apart
-  const uvol_tools::TextKeeper keeper;
-  Image image = makePaper();
-  uvol_tools::drawBoxBehind(
-      image,
-      Perspective(lookAt({middle, -3.0 * size, 0.1 * size}, {middle, 0.5, 0.0}),
-                  side,
-                  side,
-                  0,
-                  0),
-      box,
-      {font, {0, 0, 0}},
-      true);
+  const Perspective perspective(
+      lookAt({middle, -3.0 * size, 0.1 * size}, {middle, 0.5, 0.0}), side, side, 0, 0);
+  const uvol_tools::SeenBox seen(perspective, box);
   std::vector<std::string> texts;
-  for (const uvol_tools::TextLine& line : keeper.getLines()) {
-    if (line.text == "x")
-      break;
-    texts.push_back(line.text);
-  }
+  for (const auto& letters : uvol_tools::layOutAxis(seen, 0, {font, {}}).letters)
+    texts.push_back(letters.line.text);
+  EXPECT_EQ("x", texts.back());
+  texts.pop_back();
   return texts;
 }
 
@@ -196,10 +187,12 @@ TEST(DataBox, HasValuesInEvenSteps)
   using Texts = std::vector<std::string>;
   EXPECT_EQ((Texts{"-40", "-20", "0", "20", "40"}), valuesAlongX(-45.0, 45.0, 12));
   EXPECT_EQ((Texts{"-40", "0", "40"}), valuesAlongX(-45.0, 45.0, 30));
-  EXPECT_EQ((Texts{"0"}), valuesAlongX(-45.0, 45.0, 60));
+  // Of one value no scale can be read: the outermost ones, unless they would meet.
+  EXPECT_EQ((Texts{"-40", "40"}), valuesAlongX(-45.0, 45.0, 80));
+  EXPECT_EQ((Texts{"0"}), valuesAlongX(-45.0, 45.0, 200));
   EXPECT_EQ((Texts{"20", "40", "60", "80"}), valuesAlongX(15.0, 95.0, 12));
-  EXPECT_EQ((Texts{"20", "60"}), valuesAlongX(15.0, 95.0, 25));
-  EXPECT_EQ((Texts{"20", "80"}), valuesAlongX(15.0, 95.0, 60));
+  EXPECT_EQ((Texts{"20", "60"}), valuesAlongX(15.0, 95.0, 45));
+  EXPECT_EQ((Texts{"20", "80"}), valuesAlongX(15.0, 95.0, 90));
 }
 
 TEST(DataBox, IsDrawnFromInsideAndWithoutAThickness)
@@ -257,7 +250,7 @@ TEST(Triad, LeavesLettersOfAxesAlone)
         [&](const pcl_uvol::SeenSurface& seen, const auto&) {
           pcl_uvol::CameraChoice choice;
           choice.view = "front";
-          choice.fill = fill;
+          choice.fill = {fill};
           return pcl_uvol::chooseCamera(choice, seen, {}, 1.0);
         },
         [](const Camera&, const auto& cell, Image& image) {
@@ -266,7 +259,7 @@ TEST(Triad, LeavesLettersOfAxesAlone)
           std::fill(image.color.begin(), image.color.end(), std::uint8_t{0});
         });
   };
-  for (const double fill : {0.5, 0.7}) {
+  for (const double fill : {0.5, 0.65}) {
     const Image axes = draw(false, fill), both = draw(true, fill);
     std::size_t added = 0;
     for (std::size_t i = 0; i < axes.pixels(); ++i) {
@@ -344,6 +337,229 @@ TEST(ScaleBar, LeavesWhatIsDrawnAlone)
       EXPECT_EQ(place, std::pair(i % side >= side / 2, i / side >= side / 2));
     }
     EXPECT_GT(added, 100u);
+  }
+}
+
+/** Draws a box with axes, and gives all lines of text. */
+std::vector<uvol_tools::TextLine>
+writeBox(const uvol_tools::Figure& figure,
+         const Vector3d& size,
+         const Vector3d& origin,
+         const uvol_tools::Ground& ground,
+         const std::string& view,
+         Eigen::AlignedBox2d& box)
+{
+  pcl::PointCloud<pcl::PointXYZ> corners;
+  corners.push_back({0.0f, 0.0f, 0.0f});
+  corners.push_back({static_cast<float>(size.x()),
+                     static_cast<float>(size.y()),
+                     static_cast<float>(size.z())});
+  const pcl_uvol::CloudView cloud = pcl_uvol::viewOf(corners);
+  const std::array<double, 3> shift{origin.x(), origin.y(), origin.z()};
+  const uvol_tools::TextKeeper keeper;
+  figure.drawViews(
+      {cloud, {0.5 * size, 0.5 * size.norm()}, shift},
+      ground,
+      [&](const pcl_uvol::SeenSurface& seen, const uvol_tools::PictureCell& cell) {
+        pcl_uvol::CameraChoice choice;
+        choice.view = view;
+        choice.fill = cell.fill;
+        choice.zoom = ground.zoom;
+        choice.turns = ground.turns;
+        return pcl_uvol::chooseCamera(
+            choice, seen, shift, static_cast<double>(cell.width) / cell.height);
+      },
+      [&](const Camera& camera, const uvol_tools::PictureCell& cell, Image& image) {
+        image.width = static_cast<std::uint32_t>(cell.width);
+        image.height = static_cast<std::uint32_t>(cell.height);
+        image.color.assign(4 * image.pixels(), 0);
+        const Perspective perspective(camera, cell.width, cell.height, 0, 0);
+        for (int i = 0; i < 8; ++i) {
+          Vector3d corner;
+          for (int axis = 0; axis < 3; ++axis)
+            corner[axis] = (i >> axis & 1) != 0 ? size[axis] : 0.0;
+          box.extend(Eigen::Vector2d(
+              perspective.pixelOf(perspective.seenFromEye(corner)).data()));
+        }
+      });
+  return keeper.getLines();
+}
+
+TEST(Figure, AxesHaveRoomInThePictureAndNoMore)
+{
+  uvol_tools::Figure figure;
+  figure.has_ticks = true;
+  figure.unit = "m";
+  const Vector3d sizes[] = {{1.0, 1.0, 1.0}, {60.0, 10.0, 10.0}, {0.1, 0.2, 3.0}};
+  const Vector3d origins[] = {Vector3d::Zero(), {500000.25, 5400000.1, -17.0}};
+  for (const Vector3d& size : sizes)
+    for (const Vector3d& origin : origins)
+      for (const std::string& view : Camera::viewNames())
+        for (const auto& [width, height] :
+             {std::pair(400, 300), std::pair(1004, 709)}) {
+          Eigen::AlignedBox2d box;
+          const auto lines =
+              writeBox(figure, size, origin, {{}, width, height, width}, view, box);
+          Eigen::AlignedBox2d letters = box;
+          for (const uvol_tools::TextLine& line : lines)
+            letters.extend(uvol_tools::boxAround(line));
+          const Eigen::Vector2d before = letters.min(),
+                                behind = Eigen::Vector2d(width - 1, height - 1) -
+                                         letters.max();
+          EXPECT_GE(before.minCoeff(), 0.0) << view << ' ' << size.transpose();
+          EXPECT_GE(behind.minCoeff(), 0.0) << view << ' ' << size.transpose();
+          // In one of both directions it fills the picture.
+          const Eigen::Vector2d free =
+              (before + behind).cwiseQuotient(Eigen::Vector2d(width, height));
+          EXPECT_LT(free.minCoeff(), 0.13) << view << ' ' << size.transpose();
+        }
+}
+
+TEST(Figure, EveryAxisOfASmallPrintHasTwoValues)
+{
+  uvol_tools::Figure figure;
+  figure.has_ticks = true;
+  figure.least_letters = 29; // 7 points at 300 dpi
+  Eigen::AlignedBox2d box;
+  const auto lines = writeBox(
+      figure, {60.0, 10.0, 10.0}, Vector3d::Zero(), {{}, 1004, 709, 1004}, "iso", box);
+  std::map<char, int> values;
+  int count = 0;
+  for (const uvol_tools::TextLine& line : lines) {
+    const bool is_name = std::isalpha(static_cast<unsigned char>(line.text[0])) != 0;
+    if (is_name)
+      values[line.text[0]] = count;
+    count = is_name ? 0 : count + 1;
+  }
+  for (const char axis : {'x', 'y', 'z'})
+    EXPECT_GE(values[axis], 2) << axis;
+  EXPECT_GT(box.sizes().x(), 0.7 * 1004);
+}
+
+TEST(Figure, OffsetsOfAnAxisHaveTheirOwnLine)
+{
+  uvol_tools::Figure figure;
+  figure.has_ticks = true;
+  figure.unit = "m";
+  Eigen::AlignedBox2d box;
+  const auto lines = writeBox(figure,
+                              {0.5, 0.2, 0.1},
+                              {500000.0, 5400000.0, 0.0},
+                              {{}, 400, 300, 400},
+                              "iso",
+                              box);
+  std::size_t offsets = 0;
+  for (std::size_t i = 1; i < lines.size(); ++i)
+    if (lines[i].text == "+ 500000" || lines[i].text == "+ 5400000") {
+      ++offsets;
+      EXPECT_EQ(offsets == 1 ? "x (m)" : "y (m)", lines[i - 1].text);
+      EXPECT_GT(lines[i].row, lines[i - 1].row + 11);
+    }
+  EXPECT_EQ(2u, offsets);
+}
+
+TEST(Figure, FramesOfATurnAndZoomedPicturesHaveOneFit)
+{
+  uvol_tools::Figure figure;
+  figure.has_ticks = true;
+  const Vector3d size(3.0, 2.0, 1.0);
+  const auto widthOf = [&](bool turns, double zoom) {
+    Eigen::AlignedBox2d box;
+    writeBox(figure,
+             size,
+             Vector3d::Zero(),
+             {{}, 400, 300, 400, Vector3d::Ones(), turns, zoom},
+             "front",
+             box);
+    return box.sizes().x();
+  };
+  EXPECT_NEAR(2.0 * widthOf(false, 1.0), widthOf(false, 2.0), 0.01);
+  EXPECT_LT(widthOf(true, 1.0), widthOf(false, 1.0));
+  EXPECT_GT(widthOf(true, 1.0), 0.5 * widthOf(false, 1.0));
+}
+
+TEST(Figure, LongTitlesAreBrokenAndHaveTheirRoom)
+{
+  uvol_tools::Figure figure;
+  figure.has_ticks = true;
+  Eigen::AlignedBox2d box;
+  const uvol_tools::Ground ground{{}, 400, 300, 400};
+  writeBox(figure, Vector3d::Ones(), Vector3d::Zero(), ground, "front", box);
+  const double height = box.sizes().y();
+  figure.title = "A title of a figure that is a good deal longer than the picture is "
+                 "wide, indeed";
+  box.setEmpty();
+  writeBox(figure, Vector3d::Ones(), Vector3d::Zero(), ground, "front", box);
+  EXPECT_LT(box.sizes().y(), height - 40.0);
+  const uvol_tools::TextKeeper keeper;
+  Image image = makePaper();
+  figure.drawTitle(image);
+  ASSERT_EQ(2u, keeper.getLines().size());
+  EXPECT_EQ(figure.title, keeper.getLines()[0].text + " " + keeper.getLines()[1].text);
+  for (const uvol_tools::TextLine& line : keeper.getLines()) {
+    EXPECT_GE(uvol_tools::boxAround(line).min().x(), 0.0);
+    EXPECT_LT(uvol_tools::boxAround(line).max().x(), side);
+  }
+  EXPECT_FALSE([&] {
+    figure.title.append(5000, 'x');
+    return figure.fits(side, side);
+  }());
+}
+
+TEST(TextWrap, BreaksAtBlanksThenAtSignsThenAnywhere)
+{
+  using Texts = std::vector<std::string>;
+  const auto wrap = [](const std::string& text, const std::string& widest) {
+    return uvol_tools::wrapText(text, 12, uvol_tools::measureText(widest, 12));
+  };
+  EXPECT_EQ((Texts{"short"}), wrap("short", "short"));
+  EXPECT_EQ((Texts{""}), wrap("", "short"));
+  EXPECT_EQ((Texts{"two", "words"}), wrap("two  words", "words "));
+  EXPECT_EQ((Texts{"flux", "(kg m-2)"}), wrap("flux (kg m-2)", "flux (kg mm"));
+  EXPECT_EQ((Texts{"(kg m-2", "s-1)"}), wrap("(kg m-2 s-1)", "(kg m-2 s"));
+  EXPECT_EQ((Texts{"log10(x)+", "log10(y)"}),
+            wrap("log10(x)+log10(y)", "log10(x)+log"));
+  EXPECT_EQ((Texts{"aaaa", "aaaa", "a"}), wrap("aaaaaaaaa", "aaaa"));
+  // letters of several bytes stay whole, and each line has one
+  EXPECT_EQ((Texts{"\u00e4", "\u00f6"}), wrap("\u00e4\u00f6", ""));
+}
+
+TEST(ScaleBar, MakesPalerWhatItLiesOn)
+{
+  pcl::PointCloud<pcl::PointXYZ> corners;
+  corners.push_back({0.0f, 0.0f, 0.0f});
+  corners.push_back({1.0f, 1.0f, 1.0f});
+  const pcl_uvol::CloudView cloud = pcl_uvol::viewOf(corners);
+  for (const std::uint8_t opacity : {std::uint8_t{255}, std::uint8_t{0}}) {
+    uvol_tools::Figure figure;
+    figure.has_scale_bar = true;
+    uvol_tools::Ground ground{{}, side, side, side};
+    if (opacity == 0)
+      ground.background.kind = pcl_uvol::Background::Kind::Transparent;
+    const Image image = figure.drawViews(
+        {cloud, {{0.5, 0.5, 0.5}, 0.9}, {}},
+        ground,
+        [](const pcl_uvol::SeenSurface& seen, const auto&) {
+          return pcl_uvol::chooseCamera({}, seen, {}, 1.0);
+        },
+        [](const Camera&, const auto&, Image& view) {
+          view = makePaper();
+          for (std::size_t i = 0; i < view.pixels(); ++i)
+            std::fill_n(&view.color[4 * i], 3, std::uint8_t{40}); // all is dark
+        });
+    // Beside the letters, within a letter's size of them, black can be read.
+    std::size_t pale = 0, ink = 0, dark = 0;
+    for (std::size_t row = side - 40; row < side; ++row)
+      for (std::size_t column = side - 130; column < side; ++column) {
+        const std::uint8_t* const pixel = &image.color[4 * (row * side + column)];
+        const double white = 255.0 - pixel[3] * (1.0 - pixel[0] / 255.0);
+        pale += white > 180.0 ? 1 : 0;
+        dark += white > 35.0 && white < 45.0 ? 1 : 0;
+        ink += white < 20.0 ? 1 : 0;
+      }
+    EXPECT_GT(ink, 50u);
+    EXPECT_GT(pale, 10u * ink / 2u);
+    EXPECT_GT(dark, 500u); // and nothing else has changed
   }
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cameras that see all points, as large as may be.
+#include "render/camera_choice.h"
 #include "render/camera_fit.h"
 
 #include <gtest/gtest.h>
@@ -8,6 +9,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -56,7 +58,10 @@ struct Ends {
 };
 
 Camera
-fitToAll(const Camera& camera, const Cloud& cloud, double aspect, double fill)
+fitToAll(const Camera& camera,
+         const Cloud& cloud,
+         double aspect,
+         const pcl_uvol::ImageFill& fill)
 {
   return pcl_uvol::fitToPoints(camera, {pcl_uvol::viewOf(cloud), {}}, aspect, fill);
 }
@@ -72,7 +77,7 @@ TEST(CameraFit, PointsFillTheImageAndLieInItsMiddle)
         cloud[5].x = std::numeric_limits<float>::quiet_NaN();
         const Camera ball =
             Camera::fit({{0.0, 0.0, 0.0}, 1.0}, view, 40.0, aspect, 0.9);
-        const Camera camera = fitToAll(ball, cloud, aspect, 0.8);
+        const Camera camera = fitToAll(ball, cloud, aspect, {0.8});
         EXPECT_LT((camera.rotation() - ball.rotation()).norm(), 1e-9);
         const Ends ends(camera, cloud);
         const double width = std::max(ends.right, -ends.left) / aspect,
@@ -88,9 +93,9 @@ TEST(CameraFit, LeavesTheCameraOfASinglePlaceAlone)
 {
   const Camera camera = Camera::fit({{1.0, 2.0, 3.0}, 1.0}, "iso", 30.0, 1.0);
   Cloud cloud;
-  EXPECT_EQ(camera.eye, fitToAll(camera, cloud, 1.0, 0.9).eye);
+  EXPECT_EQ(camera.eye, fitToAll(camera, cloud, 1.0, {}).eye);
   cloud.push_back({1.0f, 2.0f, 3.0f});
-  EXPECT_EQ(camera.eye, fitToAll(camera, cloud, 1.0, 0.9).eye);
+  EXPECT_EQ(camera.eye, fitToAll(camera, cloud, 1.0, {}).eye);
 }
 
 /** Points of the borders of discs about points. */
@@ -128,7 +133,7 @@ TEST(CameraFit, DiscsAreInTheImage)
           Camera::fit({{0.0, 0.0, 0.0}, 1.0}, view, 40.0, aspect, 0.9),
           {pcl_uvol::viewOf(cloud), discs},
           aspect,
-          0.8);
+          {0.8});
       const Ends ends(camera, makeBorders(cloud, discs));
       const double width = std::max(ends.right, -ends.left) / aspect,
                    height = std::max(ends.bottom, -ends.top);
@@ -140,35 +145,62 @@ TEST(CameraFit, PointsThatDoNotCountMoveNoCamera)
 {
   Cloud cloud = makeBox({1.0f, 2.0f, 3.0f}, {3.0f, 2.0f, 1.0f});
   const Camera ball = Camera::fit({{0.0, 0.0, 0.0}, 1.0}, "iso", 30.0, 1.0);
-  const Camera before = fitToAll(ball, cloud, 1.0, 0.9);
+  const Camera before = fitToAll(ball, cloud, 1.0, {});
   cloud.push_back({500.0f, -300.0f, 20.0f});
   std::vector<FittedDisc> discs(cloud.size(), {0.0f, {0.0f, 0.0f, 1.0f}});
   discs.back().radius = std::numeric_limits<float>::quiet_NaN();
-  for (const bool turn : {false, true}) {
+  for (const auto& axis : {std::optional<Eigen::Vector3d>(),
+                           std::optional<Eigen::Vector3d>(Eigen::Vector3d::UnitZ())}) {
     Cloud counted = cloud;
     counted.resize(cloud.size() - 1);
     const Camera expected =
-        pcl_uvol::fitToPoints(ball, {pcl_uvol::viewOf(counted), {}, turn}, 1.0);
+        pcl_uvol::fitToPoints(ball, {pcl_uvol::viewOf(counted), {}, axis}, 1.0);
     const Camera camera =
-        pcl_uvol::fitToPoints(ball, {pcl_uvol::viewOf(cloud), discs, turn}, 1.0);
+        pcl_uvol::fitToPoints(ball, {pcl_uvol::viewOf(cloud), discs, axis}, 1.0);
     EXPECT_EQ(expected.eye, camera.eye);
     EXPECT_EQ(expected.at, camera.at);
   }
-  EXPECT_NE(before.eye, fitToAll(ball, cloud, 1.0, 0.9).eye);
+  EXPECT_NE(before.eye, fitToAll(ball, cloud, 1.0, {}).eye);
+}
+
+TEST(CameraFit, FillsAsMuchOfEachSideAsAskedFor)
+{
+  const pcl_uvol::ImageFill fill{0.5, 0.9, 0.8, 0.3};
+  for (const std::string& view : Camera::viewNames())
+    for (const double aspect : {0.5, 2.0}) {
+      const Cloud cloud = makeBox({100.0f, -20.0f, 7.0f}, {1.0f, 3.0f, 2.0f});
+      const Camera ball = Camera::fit({{0.0, 0.0, 0.0}, 1.0}, view, 40.0, aspect, 0.9);
+      const Ends ends(fitToAll(ball, cloud, aspect, fill), cloud);
+      EXPECT_GE(ends.left, -0.5 * aspect - 1e-9) << view << ' ' << aspect;
+      EXPECT_LE(ends.right, 0.9 * aspect + 1e-9) << view << ' ' << aspect;
+      EXPECT_GE(ends.top, -0.8 - 1e-9) << view << ' ' << aspect;
+      EXPECT_LE(ends.bottom, 0.3 + 1e-9) << view << ' ' << aspect;
+      const double width = (ends.right - ends.left) / (1.4 * aspect),
+                   height = (ends.bottom - ends.top) / 1.1;
+      EXPECT_NEAR(1.0, std::max(width, height), 1e-3) << view << ' ' << aspect;
+    }
 }
 
 TEST(CameraFit, EveryFrameOfATurnIsFitted)
 {
   const Cloud cloud = makeBox({100.0f, -20.0f, 7.0f}, {5.0f, 0.5f, 1.0f});
   const std::vector<FittedDisc> discs(cloud.size(), {0.1f, {0.0f, 0.0f, 1.0f}});
-  for (const char* const view : {"front", "left", "iso"})
+  const pcl_uvol::CloudView seen = pcl_uvol::viewOf(cloud);
+  for (const char* const view : {"front", "left", "iso", "top", "bottom"})
     for (const double aspect : {0.5, 2.0}) {
-      Camera camera = Camera::fit({{0.0, 0.0, 0.0}, 1.0}, view, 40.0, aspect, 0.9);
-      camera = pcl_uvol::fitToPoints(
-          camera, {pcl_uvol::viewOf(cloud), discs, true}, aspect, 0.8);
+      pcl_uvol::CameraChoice choice;
+      choice.view = view;
+      choice.fill = {0.8};
+      choice.turns = true;
+      pcl_uvol::SeenSurface surface{{{0.0, 0.0, 0.0}, 1.0}, &seen};
+      surface.find_discs = [&](const Camera&) { return discs; };
+      const Camera camera = pcl_uvol::chooseCamera(choice, surface, {}, aspect);
       double largest = 0.0;
       for (int degree = 0; degree < 360; ++degree) {
-        const Ends ends(camera.orbited(degree), cloud);
+        const Camera turned = pcl_uvol::orbit(choice, camera, degree);
+        // All views turn about z: from above, one still looks from there.
+        EXPECT_NEAR(camera.eye.z(), turned.eye.z(), 1e-9);
+        const Ends ends(turned, cloud);
         largest = std::max({largest,
                             std::max(ends.right, -ends.left) / aspect,
                             std::max(ends.bottom, -ends.top)});

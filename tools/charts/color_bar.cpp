@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "charts/color_bar.h"
 
+#include "charts/text_wrap.h"
 #include "common/printable.h"
 #include "common/records.h"
 
@@ -47,15 +48,29 @@ isTooSmall(const Image& image)
 struct Legend {
   int size, length, top, left, right;
   Ink ink;
+  std::vector<std::string> title; ///< lines
 
-  Legend(const Image& image, int least_letters)
+  Legend(const Image& image, const std::string& text, int least_letters)
       : size(letterSize(static_cast<int>(image.height), least_letters))
       , length(static_cast<int>(image.height) * 6 / 10)
       , top((static_cast<int>(image.height) - length) / 2)
       , left(static_cast<int>(image.width) - 2 * size)
       , right(left + size)
       , ink(inkOn(image))
+      , title(wrapTitle(image, text, least_letters))
   {
+    // A title of many lines takes the place of the bar's upper part.
+    const int lower = std::max(above(title.size()) + size - top, 0);
+    top += lower;
+    length -= lower;
+  }
+
+  /** Pixels from the middle of the first of so many lines to what they are above. */
+  int
+  above(std::size_t lines) const
+  {
+    return size * 3 / 2 +
+           rounded(line_distance * size * static_cast<double>(lines - 1));
   }
 
   PlotArea
@@ -68,6 +83,31 @@ struct Legend {
   write(Image& image, const std::string& text, int row) const
   {
     writeText(image, text, size, right, row, TextAnchor::Right, ink);
+  }
+
+  /** \param row what the title is above */
+  void
+  writeTitle(Image& image, int row) const
+  {
+    for (std::size_t i = 0; i < title.size(); ++i)
+      write(image, title[i], row - above(title.size() - i));
+  }
+
+private:
+  /** As wide as the legend, and no more lines than half of the image has room for. */
+  std::vector<std::string>
+  wrapTitle(const Image& image, const std::string& text, int least_letters) const
+  {
+    const int width = static_cast<int>(image.width),
+              height = static_cast<int>(image.height);
+    std::vector<std::string> lines = wrapText(
+        text, size, right - (width - colorBarWidth(width, height, least_letters)));
+    const auto most = static_cast<std::size_t>(std::max(height / 2 / above(2) * 2, 1));
+    if (lines.size() > most) {
+      lines.resize(most);
+      lines.back() = "..";
+    }
+    return lines;
   }
 };
 
@@ -176,7 +216,7 @@ drawColorBar(Image& image,
 {
   if (isTooSmall(image))
     return;
-  const Legend legend(image, least_letters);
+  const Legend legend(image, title, least_letters);
   const BarLabels labels =
       labelBar(scale, label_distance * legend.size / legend.length);
   drawBar(image,
@@ -187,7 +227,7 @@ drawColorBar(Image& image,
           TextAnchor::Right,
           legend.size,
           legend.ink);
-  legend.write(image, title, legend.top - legend.size * 3 / 2);
+  legend.writeTitle(image, legend.top);
   legend.write(image, labels.offset, legend.top + legend.length + legend.size * 3 / 2);
 }
 
@@ -265,7 +305,7 @@ drawCategories(Image& image,
 {
   if (isTooSmall(image))
     return;
-  const Legend legend(image, least_letters);
+  const Legend legend(image, title, least_letters);
   const int count = static_cast<int>(categories.size());
   const int step = std::min(legend.size * 3 / 2, legend.length / std::max(count, 1));
   const int top = legend.top + (legend.length - step * count) / 2;
@@ -285,7 +325,7 @@ drawCategories(Image& image,
               TextAnchor::Right,
               legend.ink);
   }
-  legend.write(image, title, top - legend.size * 3 / 2);
+  legend.writeTitle(image, top);
 }
 
 void

@@ -133,6 +133,29 @@ TextKeeper::keep(const TextLine& line)
 }
 
 int
+measureText(const std::string& text, int size)
+{
+  return Letters(text, size).width;
+}
+
+Eigen::AlignedBox2d
+boxAround(const TextLine& line)
+{
+  constexpr double half_height = 0.6; // of the font's size
+  const double width = measureText(line.text, line.size);
+  const double before = line.anchor == TextAnchor::Left     ? 0.0
+                        : line.anchor == TextAnchor::Center ? 0.5 * width
+                                                            : width;
+  const double half = half_height * line.size;
+  const Eigen::Vector2d anchor(line.column, line.row);
+  return line.is_upright
+             ? Eigen::AlignedBox2d(anchor - Eigen::Vector2d(half, width - before),
+                                   anchor + Eigen::Vector2d(half, before))
+             : Eigen::AlignedBox2d(anchor - Eigen::Vector2d(before, half),
+                                   anchor + Eigen::Vector2d(width - before, half));
+}
+
+int
 writeText(Image& image,
           const std::string& text,
           int size,
@@ -168,6 +191,16 @@ writeUpwards(Image& image,
   letters.forEach([&](int along, int above, double opacity) {
     blend(image, column - above, start - along, ink, opacity);
   });
+}
+
+void
+writeLine(Image& image, const TextLine& line)
+{
+  if (line.is_upright)
+    writeUpwards(image, line.text, line.size, line.column, line.row, line.ink);
+  else
+    writeText(
+        image, line.text, line.size, line.column, line.row, line.anchor, line.ink);
 }
 
 void

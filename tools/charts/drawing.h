@@ -5,6 +5,8 @@
 #include <pcl_uvol/render/color_map.h>
 #include <pcl_uvol/render/renderer.h>
 
+#include <Eigen/Geometry>
+
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -63,6 +65,14 @@ struct TextLine {
   }
 };
 
+/** \brief The width of a line of text, pixels. */
+int
+measureText(const std::string& text, int size);
+
+/** \brief The pixels of a line. */
+Eigen::AlignedBox2d
+boxAround(const TextLine& line);
+
 /** \brief While it lives, the lines of text of its thread are kept instead of drawn:
  * for pictures whose letters stay letters. */
 class TextKeeper {
@@ -109,6 +119,10 @@ writeUpwards(pcl_uvol::Image& image,
              int column,
              int row,
              const Ink& ink);
+
+/** \brief Write a line where it stands. */
+void
+writeLine(pcl_uvol::Image& image, const TextLine& line);
 
 /** \brief Visit the pixels that a straight line with soft edges covers, whole or in
  * part; coordinates of pixel centres are whole. */

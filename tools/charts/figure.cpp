@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "charts/figure.h"
 
+#include "charts/text_wrap.h"
 #include "charts/view_marks.h"
 #include "render/lighting.h"
 #include <pcl_uvol/render/color_map.h>
@@ -26,9 +27,40 @@ titleSize(int letters)
 }
 
 int
-titleRows(int letters)
+titleRows(int letters, std::size_t lines)
 {
-  return titleSize(letters) * 5 / 2;
+  return titleSize(letters) * 5 / 2 +
+         rounded(line_distance * titleSize(letters) * static_cast<double>(lines - 1));
+}
+
+Perspective
+look(const pcl_uvol::Camera& camera, const PictureCell& cell)
+{
+  return {camera, cell.width, cell.height, cell.left, cell.top};
+}
+
+/** Of an axis of a triad that lies across the line of sight, pixels. */
+double
+triadLength(const PictureCell& cell, int font)
+{
+  return std::min(3.0 * font, 0.12 * std::min(cell.width, cell.height));
+}
+
+/** Less of a cell so that what reaches beyond its borders has room. */
+pcl_uvol::ImageFill
+shrink(const pcl_uvol::ImageFill& fill,
+       const PictureCell& cell,
+       const Eigen::Vector2d& before,
+       const Eigen::Vector2d& behind)
+{
+  constexpr double least = 0.3;
+  const auto part = [&](double whole, double beyond, int side) {
+    return std::max(whole - 2.0 * std::max(beyond, 0.0) / side, std::min(whole, least));
+  };
+  return {part(fill.left, before.x(), cell.width),
+          part(fill.right, behind.x(), cell.width),
+          part(fill.top, before.y(), cell.height),
+          part(fill.bottom, behind.y(), cell.height)};
 }
 
 /** A picture of nothing. */
@@ -100,6 +132,45 @@ struct Corners {
   }
 };
 
+/** Calls with the pixels of an image that a mark at a place covers, at the number of
+ * their first byte. */
+template <typename Function>
+void
+forPixelsBelow(const pcl_uvol::Image& image,
+               const MarkBox& mark,
+               const Pixel& place,
+               const Function& call)
+{
+  const int column = rounded(place[0]), row = rounded(place[1]);
+  const int left = std::max(column + mark.left, 0), top = std::max(row + mark.top, 0);
+  const int right = std::min(column + mark.right, static_cast<int>(image.width) - 1),
+            bottom = std::min(row + mark.bottom, static_cast<int>(image.height) - 1);
+  for (int y = top; y <= bottom; ++y)
+    for (int x = left; x <= right; ++x)
+      call(4 *
+           (static_cast<std::size_t>(y) * image.width + static_cast<std::size_t>(x)));
+}
+
+/** Make what a mark would cover paler, so that it can be told from that. */
+void
+fadeBelow(pcl_uvol::Image& image,
+          const pcl_uvol::Image& ground,
+          const MarkBox& mark,
+          const Pixel& place)
+{
+  constexpr double part = 0.75;
+  forPixelsBelow(image, mark, place, [&](std::size_t at) {
+    std::uint8_t* const pixel = &image.color[at];
+    const std::uint8_t* const behind = &ground.color[at];
+    const double own = (1.0 - part) * pixel[3], other = part * behind[3],
+                 sum = own + other;
+    for (std::size_t k = 0; k < 3 && sum > 0.0; ++k)
+      pixel[k] = static_cast<std::uint8_t>(
+          std::lround((own * pixel[k] + other * behind[k]) / sum));
+    pixel[3] = static_cast<std::uint8_t>(std::lround(sum));
+  });
+}
+
 /** The first of several places where a mark covers least of what is drawn already.
  * \param ground what is behind all */
 Pixel
@@ -108,22 +179,14 @@ findFreePlace(const pcl_uvol::Image& image,
               const MarkBox& mark,
               const std::array<Pixel, 4>& places)
 {
-  const auto isDrawn = [&](int column, int row) {
-    if (column < 0 || row < 0 || column >= static_cast<int>(image.width) ||
-        row >= static_cast<int>(image.height))
-      return false;
-    const auto at = 4 * (std::ptrdiff_t{row} * image.width + column);
-    const auto pixel = image.color.begin() + at;
-    return !std::equal(pixel, pixel + 4, ground.color.begin() + at);
-  };
   Pixel best{};
   int least = std::numeric_limits<int>::max();
   for (const Pixel& place : places) {
-    const int column = rounded(place[0]), row = rounded(place[1]);
     int covered = 0;
-    for (int y = row + mark.top; y <= row + mark.bottom; ++y)
-      for (int x = column + mark.left; x <= column + mark.right; ++x)
-        covered += isDrawn(x, y) ? 1 : 0;
+    forPixelsBelow(image, mark, place, [&](std::size_t at) {
+      covered +=
+          std::equal(&image.color[at], &image.color[at] + 4, &ground.color[at]) ? 0 : 1;
+    });
     if (covered < least) {
       least = covered;
       best = place;
@@ -207,20 +270,65 @@ bool
 Figure::fits(int width, int height) const
 {
   constexpr int least = 16;
-  const PictureCell first = layOut(width, height)[0];
+  const PictureCell first = layOut(width, height, width)[0];
   return std::min(first.width, first.height) >= least ||
          (views.empty() && title.empty());
 }
 
-double
-Figure::getFill(const PictureCell& cell) const
+MarkStyle
+Figure::styleOf(const PictureCell& cell, const pcl_uvol::Image& ground) const
 {
-  constexpr double usual = 0.9, least = 0.4, letters = 11.0; // of values on both sides
+  return {letterSize(cell.height, least_letters), inkOn(ground)};
+}
+
+Eigen::AlignedBox2d
+Figure::findFreePart(const PictureCell& cell, int font) const
+{
+  constexpr double margin = 0.5, view_name = 2.2, scale_bar = 3.4; // sizes of letters
+  const double above = views.size() > 1 ? view_name * font : margin * font;
+  const double triad = has_triad ? triadLength(cell, font) + 2.0 * font : 0.0,
+               bar = has_scale_bar ? scale_bar * font : 0.0;
+  return {Eigen::Vector2d(margin * font, above),
+          Eigen::Vector2d(cell.width - margin * font,
+                          cell.height - std::max({margin * font, triad, bar}))};
+}
+
+pcl_uvol::ImageFill
+Figure::findFill(const Subject& seen,
+                 const PictureCell& cell,
+                 const FindCamera& find_camera,
+                 const DataBox& box,
+                 const Ground& ground) const
+{
   if (!has_ticks)
-    return usual;
-  const double side = std::min(cell.width, cell.height);
-  return std::clamp(
-      1.0 - letters * letterSize(cell.height, least_letters) / side, least, usual);
+    return cell.fill;
+  const MarkStyle style{letterSize(cell.height, least_letters), {}};
+  const Eigen::AlignedBox2d free = findFreePart(cell, style.font);
+  if (ground.turns) {
+    const auto [beside, below] = findRoomAround(box, style);
+    const Eigen::Vector2d room(beside, below), size(cell.width, cell.height);
+    return shrink({1.0}, cell, room + free.min(), room + size - free.max());
+  }
+  // The less of a cell is filled, the less reaches beyond it: after a few rounds
+  // nothing.
+  constexpr int rounds = 6;
+  constexpr double slack = 0.5;
+  const Eigen::Vector2d corner(cell.left, cell.top);
+  PictureCell room = cell;
+  for (int round = 0; round < rounds; ++round) {
+    const Perspective perspective =
+        look(zoomed(findCameraOf(seen, room, find_camera), 1.0 / ground.zoom), room);
+    const Eigen::AlignedBox2d letters =
+        boxAroundLetters(SeenBox(perspective, box), style);
+    if (letters.isEmpty())
+      break;
+    const Eigen::Vector2d before = free.min() + corner - letters.min(),
+                          behind = letters.max() - corner - free.max();
+    if (before.cwiseMax(behind).maxCoeff() <= slack)
+      break;
+    room.fill = shrink(room.fill, cell, before, behind);
+  }
+  return room.fill;
 }
 
 pcl_uvol::Background
@@ -232,15 +340,17 @@ Figure::getBackgroundOfViews(pcl_uvol::Background background) const
 }
 
 std::vector<PictureCell>
-Figure::layOut(int width, int height) const
+Figure::layOut(int width, int height, int views_width) const
 {
-  const int top = title.empty() ? 0 : titleRows(letterSize(height, least_letters));
+  const int top = title.empty() ? 0
+                                : titleRows(letterSize(height, least_letters),
+                                            wrapTitle(width, height).size());
   const int count = std::max(1, static_cast<int>(views.size()));
   // As many columns as leave the largest square for each view.
   int columns = 1, largest = 0;
   for (int across = 1; across <= count; ++across) {
     const int down = (count + across - 1) / across;
-    const int side = std::min(width / across, (height - top) / down);
+    const int side = std::min(views_width / across, (height - top) / down);
     if (side > largest) {
       largest = side;
       columns = across;
@@ -253,11 +363,11 @@ Figure::layOut(int width, int height) const
     const auto split = [](int length, int part, int parts) {
       return length * part / parts;
     };
-    const int left = split(width, column, columns),
+    const int left = split(views_width, column, columns),
               above = top + split(height - top, row, rows);
     cells.push_back({left,
                      above,
-                     split(width, column + 1, columns) - left,
+                     split(views_width, column + 1, columns) - left,
                      top + split(height - top, row + 1, rows) - above,
                      views.empty() ? "" : views[static_cast<std::size_t>(i)]});
   }
@@ -266,21 +376,20 @@ Figure::layOut(int width, int height) const
 
 void
 Figure::drawBehind(pcl_uvol::Image& image,
+                   const pcl_uvol::Image& ground,
                    const PictureCell& cell,
                    const pcl_uvol::Camera& camera,
                    const DataBox& box) const
 {
-  const Perspective perspective(camera, cell.width, cell.height, cell.left, cell.top);
-  const int font = letterSize(cell.height, least_letters);
-  const MarkStyle style{font, inkOn(image)};
+  const MarkStyle style = styleOf(cell, ground);
   if (showsBox())
-    drawBoxBehind(image, perspective, box, style, has_ticks);
+    drawBoxBehind(image, look(camera, cell), box, style, has_ticks);
   if (views.size() > 1)
     writeText(image,
               cell.view,
-              font,
-              cell.left + font,
-              cell.top + 3 * font / 2,
+              style.font,
+              cell.left + style.font,
+              cell.top + 3 * style.font / 2,
               TextAnchor::Left,
               style.ink);
 }
@@ -292,12 +401,12 @@ Figure::drawBefore(pcl_uvol::Image& image,
                    const pcl_uvol::Camera& camera,
                    const DataBox& box) const
 {
-  const Perspective perspective(camera, cell.width, cell.height, cell.left, cell.top);
-  const int font = letterSize(cell.height, least_letters);
-  const MarkStyle style{font, inkOn(image)};
+  const Perspective perspective = look(camera, cell);
+  const MarkStyle style = styleOf(cell, ground);
+  const int font = style.font;
   if (has_box)
     drawBoxBefore(image, perspective, box, style);
-  const double length = std::min(3.0 * font, 0.12 * std::min(cell.width, cell.height));
+  const double length = triadLength(cell, font);
   if (has_scale_bar) {
     constexpr double longest = 0.25; // of the view's width
     const double distance = perspective.seenFromEye(box.box.center()).z();
@@ -306,14 +415,13 @@ Figure::drawBefore(pcl_uvol::Image& image,
                        box.unit);
     const MarkBox mark = findScaleBarBox(bar, font);
     const Corners at(cell, mark, font);
-    drawScaleBar(
-        image,
+    const Pixel place =
         findFreePlace(image,
                       ground,
                       mark,
-                      {at.lower_right, at.lower_left, at.upper_right, at.upper_left}),
-        bar,
-        style);
+                      {at.lower_right, at.lower_left, at.upper_right, at.upper_left});
+    fadeBelow(image, ground, mark, place);
+    drawScaleBar(image, place, bar, style);
   }
   if (has_triad) {
     const MarkBox mark = findTriadBox(perspective, length, font);
@@ -340,17 +448,19 @@ Figure::drawViews(const Subject& subject,
       makeGround(ground.background, ground.width, ground.height);
   pcl_uvol::Image picture = empty, image;
   DataBox box{{}, Eigen::Vector3d(subject.origin.data()), ground.factors, unit};
-  const std::vector<PictureCell> cells = layOut(ground.views_width, ground.height);
+  std::vector<PictureCell> cells =
+      layOut(ground.width, ground.height, ground.views_width);
   if (drawsMarks())
     box.box = findBox(subject, cells[0]);
   Subject seen = subject;
   if (showsBox())
     seen.box = box.box;
-  for (const PictureCell& cell : cells) {
+  for (PictureCell& cell : cells) {
+    cell.fill = findFill(seen, cell, find_camera, box, ground);
     const pcl_uvol::Camera camera = findCameraOf(seen, cell, find_camera);
     draw(camera, cell, image);
     if (drawsMarks()) {
-      drawBehind(picture, cell, camera, box);
+      drawBehind(picture, empty, cell, camera, box);
       layOver(image, cell, picture);
       drawBefore(picture, empty, cell, camera, box);
     }
@@ -360,19 +470,27 @@ Figure::drawViews(const Subject& subject,
   return picture;
 }
 
+std::vector<std::string>
+Figure::wrapTitle(int width, int height) const
+{
+  const int letters = letterSize(height, least_letters);
+  return wrapText(title, titleSize(letters), width - letters);
+}
+
 void
 Figure::drawTitle(pcl_uvol::Image& image) const
 {
   if (title.empty())
     return;
-  const int letters = letterSize(static_cast<int>(image.height), least_letters);
-  writeText(image,
-            title,
-            titleSize(letters),
-            static_cast<int>(image.width) / 2,
-            titleRows(letters) / 2,
-            TextAnchor::Center,
-            inkOn(image));
+  const int width = static_cast<int>(image.width),
+            height = static_cast<int>(image.height);
+  const int size = titleSize(letterSize(height, least_letters));
+  double row = titleRows(letterSize(height, least_letters), 1) / 2;
+  for (const std::string& line : wrapTitle(width, height)) {
+    writeText(
+        image, line, size, width / 2, rounded(row), TextAnchor::Center, inkOn(image));
+    row += line_distance * size;
+  }
 }
 
 } // namespace uvol_tools

@@ -24,6 +24,7 @@ namespace uvol_tools {
 struct PictureCell {
   int left, top, width, height;
   std::string view; ///< the side that it is seen from; "": as the options say
+  pcl_uvol::ImageFill fill = {}; ///< by what is drawn
 };
 
 /** \brief What a picture is drawn of. */
@@ -64,6 +65,8 @@ struct Ground {
   int views_width;   ///< of the width, on the left, what is left to the views
   /** Along the axes, that the subject is stretched by. */
   Eigen::Vector3d factors = Eigen::Vector3d::Ones();
+  bool turns = false; ///< the cameras turn all around: all frames have one size
+  double zoom = 1.0;  ///< of the cameras: nothing is fitted to what they enlarge
 };
 
 /** \brief Marks, a title and views of a picture. */
@@ -77,10 +80,6 @@ struct Figure {
   /** \brief True if views and a title have room in a picture of that size. */
   bool
   fits(int width, int height) const;
-
-  /** \brief Part of a view that what is drawn may fill. */
-  double
-  getFill(const PictureCell& cell) const;
 
   /** \brief The background of views: none if marks are drawn there beforehand. */
   pcl_uvol::Background
@@ -116,19 +115,42 @@ private:
     return has_ticks || has_box || has_triad || has_scale_bar || views.size() > 1;
   }
 
-  /** The parts of a picture, of which the columns on the right are taken. */
-  std::vector<PictureCell>
-  layOut(int width, int height) const;
+  /** The lines of the title over a picture. */
+  std::vector<std::string>
+  wrapTitle(int width, int height) const;
 
-  /** Draw what is behind a surface, or beside it. */
+  /** The parts of a picture.
+   * \param views_width of the width, on the left, what is left to them */
+  std::vector<PictureCell>
+  layOut(int width, int height, int views_width) const;
+
+  /** How letters look in a cell. */
+  MarkStyle
+  styleOf(const PictureCell& cell, const pcl_uvol::Image& ground) const;
+
+  /** The part of a cell, from its corner, that letters of axes may take: without the
+   * strips of other marks. */
+  Eigen::AlignedBox2d
+  findFreePart(const PictureCell& cell, int font) const;
+
+  /** What may be filled of a cell, so that letters of axes have room beside it. */
+  pcl_uvol::ImageFill
+  findFill(const Subject& seen,
+           const PictureCell& cell,
+           const FindCamera& find_camera,
+           const DataBox& box,
+           const Ground& ground) const;
+
+  /** Draw what is behind a surface, or beside it.
+   * \param ground the picture before anything was drawn */
   void
   drawBehind(pcl_uvol::Image& image,
+             const pcl_uvol::Image& ground,
              const PictureCell& cell,
              const pcl_uvol::Camera& camera,
              const DataBox& box) const;
 
-  /** Draw what lies before it.
-   * \param ground the picture before anything was drawn */
+  /** Draw what lies before it. */
   void
   drawBefore(pcl_uvol::Image& image,
              const pcl_uvol::Image& ground,

@@ -10,6 +10,8 @@ Perspective::Perspective(
     : turn_(camera.rotation())
     , eye_(camera.eye)
     , center_{left + 0.5 * width - 0.5, top + 0.5 * height - 0.5}
+    , frame_(Eigen::Vector2d(left, top),
+             Eigen::Vector2d(left + width - 1, top + height - 1))
 {
   constexpr double pi = 3.14159265358979323846;
   focal_ = 0.5 * height / std::tan(camera.vertical_fov * pi / 360.0);

@@ -4,7 +4,7 @@
 
 #include <pcl_uvol/render/renderer.h>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <array>
 
@@ -49,6 +49,13 @@ public:
     return focal_ * length / distance;
   }
 
+  /** \brief The camera's picture within the larger one, pixels. */
+  const Eigen::AlignedBox2d&
+  getFrame() const
+  {
+    return frame_;
+  }
+
   const Eigen::Vector3d&
   getEye() const
   {
@@ -60,6 +67,7 @@ private:
   Eigen::Vector3d eye_;
   double focal_;
   Pixel center_;
+  Eigen::AlignedBox2d frame_;
 };
 
 } // namespace uvol_tools

@@ -148,21 +148,30 @@ traceScene(const Options& options,
 {
   tracer.setNumberOfThreads(options.threads());
   tracer.setProgressCallback(report.progress);
-  const pcl_uvol::Camera first =
-      camera ? view.adjusted(options, *camera, origin)
-             : view.makeCamera(
-                   {tracer.getBounds()},
-                   origin,
-                   ViewOptions::wholePicture(tracer.getWidth(), tracer.getHeight()));
+  const auto findCamera = [&](std::uint64_t frame) {
+    return camera ? view.turned(view.adjusted(options, *camera, origin), frame)
+                  : view.makeCamera({tracer.getBounds()},
+                                    origin,
+                                    ViewOptions::wholePicture(tracer.getWidth(),
+                                                              tracer.getHeight()),
+                                    frame);
+  };
   pcl_uvol::Report tracing;
   for (std::uint64_t frame = 0; frame < view.countFrames(); ++frame) {
-    tracer.setCamera(view.turned(first, frame));
+    const pcl_uvol::Camera seen_by = findCamera(frame);
+    tracer.setCamera(seen_by);
     pcl_uvol::Image image;
     tracer.render(image);
     tracing = tracer.getReport();
+    std::vector<pcl_uvol::ImageText> texts = describeOrigin(options);
+    texts.emplace_back(
+        "Camera",
+        describeCamera(
+            seen_by,
+            {{}, Eigen::Vector3d(origin.data()), Eigen::Vector3d::Ones(), ""}));
     const pcl_uvol::StepTimer timer(report, "write");
     PictureFile(view.frameName(output, frame), view.getDotsPerInch())
-        .save(image, describeOrigin(options));
+        .save(image, texts);
   }
   report.merge(tracing);
 }

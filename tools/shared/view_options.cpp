@@ -311,7 +311,8 @@ ViewOptions::exaggerate(pcl_uvol::Dataset& surface) const
 pcl_uvol::Camera
 ViewOptions::makeCamera(const pcl_uvol::SeenSurface& seen,
                         const std::array<double, 3>& origin,
-                        const PictureCell& cell) const
+                        const PictureCell& cell,
+                        std::uint64_t frame) const
 {
   const auto direction = [](const std::vector<double>& numbers) {
     return numbers.empty() ? std::nullopt : std::optional(toVector(numbers));
@@ -322,18 +323,18 @@ ViewOptions::makeCamera(const pcl_uvol::SeenSurface& seen,
       *point = point->cwiseProduct(getFactors());
     return point;
   };
-  return pcl_uvol::chooseCamera({cell.view.empty() ? view_ : cell.view,
-                                 place(eye_),
-                                 place(at_),
-                                 direction(up_),
-                                 fov_,
-                                 is_parallel_,
-                                 zoom_,
-                                 figure_.get().getFill(cell),
-                                 frames_ > 1},
-                                seen,
-                                origin,
-                                static_cast<double>(cell.width) / cell.height);
+  const pcl_uvol::CameraChoice choice{cell.view.empty() ? view_ : cell.view,
+                                      place(eye_),
+                                      place(at_),
+                                      direction(up_),
+                                      fov_,
+                                      is_parallel_,
+                                      zoom_,
+                                      cell.fill,
+                                      frames_ > 1};
+  const double aspect = static_cast<double>(cell.width) / cell.height;
+  return pcl_uvol::orbit(
+      choice, chooseCamera(choice, seen, origin, aspect), angleOf(frame));
 }
 
 pcl_uvol::Camera
@@ -358,8 +359,13 @@ ViewOptions::adjusted(const Options& options,
 pcl_uvol::Camera
 ViewOptions::turned(const pcl_uvol::Camera& camera, std::uint64_t frame) const
 {
-  return camera.orbited(360.0 * static_cast<double>(frame) /
-                        static_cast<double>(frames_));
+  return camera.orbited(angleOf(frame));
+}
+
+double
+ViewOptions::angleOf(std::uint64_t frame) const
+{
+  return 360.0 * static_cast<double>(frame) / static_cast<double>(frames_);
 }
 
 } // namespace uvol_tools

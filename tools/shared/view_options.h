@@ -97,11 +97,13 @@ public:
    * \param seen what fills the image, unless the camera has its place
    * \param origin what was subtracted from the coordinates of the cloud: places on the
    * command line are meant before that
-   * \param cell what the camera draws into */
+   * \param cell what the camera draws into
+   * \param frame of a full turn */
   pcl_uvol::Camera
   makeCamera(const pcl_uvol::SeenSurface& seen,
              const std::array<double, 3>& origin,
-             const PictureCell& cell) const;
+             const PictureCell& cell,
+             std::uint64_t frame = 0) const;
 
   /** \brief False if options say all that pictures of a series would have in common. */
   bool
@@ -139,7 +141,7 @@ public:
     return frames_;
   }
 
-  /** \brief A camera turned for a frame. */
+  /** \brief A camera that has its place, turned for a frame. */
   pcl_uvol::Camera
   turned(const pcl_uvol::Camera& camera, std::uint64_t frame) const;
 
@@ -316,6 +318,10 @@ protected:
   withSharedBox(Subject surface) const;
 
 private:
+  /** Degrees that a frame is turned by. */
+  double
+  angleOf(std::uint64_t frame) const;
+
   /** Columns that are left to the surface: its colour bar stands beside it. */
   int
   viewsWidth(const pcl_uvol::CloudView& cloud) const;

@@ -115,16 +115,26 @@ ViewOptions::drawFrame(const Subject& surface,
                        const Figure::DrawView& draw,
                        std::vector<pcl_uvol::ImageText>& texts) const
 {
-  const Ground ground{
-      background_, getWidth(), getHeight(), viewsWidth(surface.cloud), getFactors()};
+  const Ground ground{background_,
+                      getWidth(),
+                      getHeight(),
+                      viewsWidth(surface.cloud),
+                      getFactors(),
+                      frames_ > 1,
+                      zoom_};
   const DataBox data{{}, Eigen::Vector3d(surface.origin.data()), ground.factors, ""};
   const auto findCamera = [&](const pcl_uvol::SeenSurface& seen,
                               const PictureCell& cell) {
-    auto camera = turned(makeCamera(seen, surface.origin, cell), frame);
-    texts.emplace_back("Camera", describeCamera(camera, data));
-    return camera;
+    return makeCamera(seen, surface.origin, cell, frame);
   };
-  return figure_.get().drawViews(withSharedBox(surface), ground, findCamera, draw);
+  const auto drawAndDescribe = [&](const pcl_uvol::Camera& camera,
+                                   const PictureCell& cell,
+                                   pcl_uvol::Image& image) {
+    texts.emplace_back("Camera", describeCamera(camera, data));
+    draw(camera, cell, image);
+  };
+  return figure_.get().drawViews(
+      withSharedBox(surface), ground, findCamera, drawAndDescribe);
 }
 
 void

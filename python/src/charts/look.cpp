@@ -136,7 +136,8 @@ Camera
 makeCamera(const PictureParameters& parameters,
            const SeenSurface& seen,
            const std::array<double, 3>& origin,
-           const uvol_tools::PictureCell& cell)
+           const uvol_tools::PictureCell& cell,
+           double angle)
 {
   const auto direction = [](const std::optional<Eigen::Array3d>& numbers) {
     return numbers ? std::optional<Eigen::Vector3d>(numbers->matrix()) : std::nullopt;
@@ -154,10 +155,10 @@ makeCamera(const PictureParameters& parameters,
   choice.fov = parameters.fov;
   choice.is_parallel = parameters.parallel;
   choice.zoom = parameters.zoom;
-  choice.fill = makeFigure(parameters).getFill(cell);
+  choice.fill = cell.fill;
   choice.turns = parameters.frames > 1;
-  return chooseCamera(
-      choice, seen, origin, static_cast<double>(cell.width) / cell.height);
+  const double aspect = static_cast<double>(cell.width) / cell.height;
+  return orbit(choice, chooseCamera(choice, seen, origin, aspect), angle);
 }
 
 std::string

@@ -40,12 +40,14 @@ makeFigure(const PictureParameters& parameters);
 
 /** \brief The camera of a view.
  * \param seen what fills the view where only a side is chosen
- * \param origin what was subtracted from the coordinates */
+ * \param origin what was subtracted from the coordinates
+ * \param angle degrees that it is turned by */
 Camera
 makeCamera(const PictureParameters& parameters,
            const SeenSurface& seen,
            const std::array<double, 3>& origin,
-           const uvol_tools::PictureCell& cell);
+           const uvol_tools::PictureCell& cell,
+           double angle = 0.0);
 
 /** \brief The field that colours a cloud; "" for the colour of the surface. */
 std::string

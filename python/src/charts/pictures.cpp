@@ -242,6 +242,8 @@ private:
       ground.views_width -= uvol_tools::colorBarWidth(look_.width, look_.height);
     if (look_.exaggerate)
       ground.factors = look_.exaggerate->matrix();
+    ground.turns = look_.frames > 1;
+    ground.zoom = look_.zoom;
     Image picture = makeFigure(look_).drawViews(
         {cloud_,
          renderer.getBounds(),
@@ -252,8 +254,8 @@ private:
          }},
         ground,
         [&](const SeenSurface& seen, const auto& cell) {
-          return makeCamera(look_, seen, points_->origin, cell)
-              .orbited(360.0 * frame / look_.frames);
+          return makeCamera(
+              look_, seen, points_->origin, cell, 360.0 * frame / look_.frames);
         },
         [&](const Camera& camera, const auto& cell, Image& image) {
           renderer.setSize(cell.width, cell.height);

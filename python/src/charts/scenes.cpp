@@ -47,16 +47,21 @@ applyRays(const RayParameters& rays, const Given& given, RayTracingSettings& set
 }
 
 /** The camera of a file, unless another side is asked for: with what is asked for in
- * the place of what it says. */
+ * the place of what it says.
+ * \param turn degrees that it goes around */
 Camera
 findCamera(const PictureParameters& look,
            const Given& given,
            const SceneFile& file,
+           double turn,
            RayTracer& tracer)
 {
   if (!file.camera || has(given, "view"))
-    return makeCamera(
-        look, {tracer.getBounds()}, file.origin, {0, 0, look.width, look.height, ""});
+    return makeCamera(look,
+                      {tracer.getBounds()},
+                      file.origin,
+                      {0, 0, look.width, look.height, ""},
+                      turn);
   Camera camera = *file.camera;
   const Eigen::Vector3d shift(file.origin.data());
   if (look.eye)
@@ -69,7 +74,7 @@ findCamera(const PictureParameters& look,
     camera.vertical_fov = look.fov;
   if (look.parallel)
     camera = camera.parallel();
-  return zoomed(camera, look.zoom);
+  return zoomed(camera, look.zoom).orbited(turn);
 }
 
 std::array<double, 3>
@@ -147,7 +152,7 @@ traceScene(const std::string& path,
       look.height = (*file.size)[1];
     }
     tracer.setSize(look.width, look.height);
-    camera = findCamera(look, given, file, tracer).orbited(turn);
+    camera = findCamera(look, given, file, turn, tracer);
     tracer.setCamera(camera);
     tracer.render(image);
     settings = tracer.settings();
