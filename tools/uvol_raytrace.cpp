@@ -91,8 +91,7 @@ traceScene(const Options& options, const Arguments& arguments, Report& report)
   uvol_tools::traceScene(options,
                          arguments.view,
                          tracer,
-                         file.camera,
-                         file.origin,
+                         file,
                          arguments.output,
                          report);
 }

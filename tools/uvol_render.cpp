@@ -89,7 +89,7 @@ run(int argc, char** argv, uvol_tools::SeriesStep* step)
   if (is_page)
     checkPage(options);
   else
-    uvol_tools::checkPicturePath(output);
+    uvol_tools::checkPicturePath(output, true);
 
   const auto forecastMemory = [&job =
                                    *job](double points, double size, auto& forecast) {

@@ -3,6 +3,7 @@
 #include "common/records.h"
 #include "common/scalar_field.h"
 #include "render/gaussian_splats.h"
+#include "shared/color_options.h"
 #include "shared/memory_guard.h"
 #include "shared/options.h"
 #include "shared/point_files.h"
@@ -78,6 +79,7 @@ run(int argc, char** argv)
   uvol_tools::SplatOptions splat_options;
   bool ascii = false, is_gaussian = false;
   std::string color = "auto";
+  uvol_tools::ColorOptions colors;
   uvol_tools::Options options(
       "uvol_splats",
       "in.ply out.ply [options]",
@@ -98,10 +100,13 @@ run(int argc, char** argv)
                color,
                "of Gaussians, a scalar field (default: rgb if there, else isovalue if "
                "there are several)");
+  colors.declareMapping(options);
   if (!options.parse(argc, argv))
     return 0;
-  if (options.given("color") && !is_gaussian)
-    throw uvol_tools::UsageError("-color needs -gaussians.");
+  for (const char* const name : {"color", "colormap", "range", "log"})
+    if (options.given(name) && !is_gaussian)
+      throw uvol_tools::UsageError(std::string("-") + name + " needs -gaussians.");
+  colors.check();
   if (is_gaussian && std::filesystem::path(output).extension() != ".ply")
     throw uvol_tools::UsageError("-gaussians are written as .ply.");
   const pcl_uvol::SplatParameters parameters = splat_options.parameters(options);
@@ -122,7 +127,11 @@ run(int argc, char** argv)
   pcl_uvol::Dataset result = pcl_uvol::withoutCloud(dataset);
   result.cloud = generateSplats(dataset.cloud, parameters, options.threads(), report);
   if (is_gaussian) {
-    result.cloud = pcl_uvol::makeGaussians(pcl_uvol::viewOf(result.cloud), color);
+    const pcl_uvol::CloudView splats = pcl_uvol::viewOf(result.cloud);
+    const std::string field = pcl_uvol::resolveColor(splats, color);
+    const pcl_uvol::ColorMapping mapping = colors.mapFor(splats, field);
+    pcl_uvol::warnOfLogarithms(splats, field, mapping, report);
+    result.cloud = pcl_uvol::makeGaussians(splats, field, mapping);
     if (result.origin != std::array<double, 3>{})
       report.warnings.push_back(
           "Gaussians have coordinates in float: they start at an origin, " +

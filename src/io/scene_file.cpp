@@ -5,6 +5,7 @@
 #include "common/printable.h"
 #include "io/files.h"
 #include "io/scene_words.h"
+#include "render/point_colors.h"
 #include "render/ray_tracing/scene_cloud.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset.h>
@@ -78,6 +79,8 @@ addClouds(const std::vector<CloudItem>& items,
       const StepTimer timer(report, "read");
       return loadDataset(item.path);
     });
+    const std::vector<double> isovalues = listIsovalues(viewOf(dataset.cloud));
+    file.isovalues.insert(isovalues.begin(), isovalues.end());
     looks.push_back(item.look);
     clouds.push_back(io::callAt(
         item.place, [&] { return coverCloud(dataset, item.look, threads, report); }));

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <optional>
+#include <set>
 #include <string>
 
 namespace pcl_uvol {
@@ -22,6 +23,7 @@ struct SceneFile {
   RayTracingSettings settings;
   /** Subtracted from all coordinates: that of the first cloud, see Dataset. */
   std::array<double, 3> origin{{0.0, 0.0, 0.0}};
+  std::set<double> isovalues; ///< of its clouds
 };
 
 /** \brief Read a scene. Clouds are read, and covered by splats unless the file has

@@ -14,6 +14,13 @@ struct ColorScale {
   double low = 0.0, high = 1.0;
   bool is_logarithmic = false; ///< both ends are above 0
 
+  /** \brief False for what is not a number, or has no logarithm on a scale of these. */
+  bool
+  hasPlace(double value) const
+  {
+    return !std::isnan(value) && !(is_logarithmic && value <= 0.0);
+  }
+
   /** \brief 0 at the lower end and 1 at the upper one, beyond them outside of that; the
    * middle for a range of one value. Values that have no logarithm lie below all
    * others.

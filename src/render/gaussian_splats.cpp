@@ -2,7 +2,6 @@
 #include "render/gaussian_splats.h"
 
 #include "common/records.h"
-#include "render/point_colors.h"
 #include "surface/splat_input.h"
 #include <pcl_uvol/render/color_map.h>
 #include <pcl_uvol/surface/splat_generation.h>
@@ -98,17 +97,15 @@ toGaussians(const pcl::PointCloud<PointSplat>& splats, const std::vector<Rgba>& 
 }
 
 pcl::PCLPointCloud2
-makeGaussians(const CloudView& splats, const std::string& color)
+makeGaussians(const CloudView& splats,
+              const std::string& field,
+              const ColorMapping& mapping)
 {
   Report counted_before;
   const Splats found = readSplats(splats, counted_before);
-  const std::string field = color == "auto"   ? usualColorField(splats)
-                            : color == "none" ? ""
-                                              : color;
   std::vector<Rgba> colors(found.cloud.size(), toRgba(Material().color));
   if (!field.empty()) {
-    const PointColors all =
-        colorPoints(splats, field, usualColorMapping(splats, field));
+    const PointColors all = colorPoints(splats, field, mapping);
     for (std::size_t i = 0; i < colors.size(); ++i)
       colors[i] = all.colors[found.sources[i]];
   }

@@ -2,6 +2,7 @@
 // Splats as other people's viewers read them.
 #pragma once
 
+#include "render/point_colors.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/point_types.h>
@@ -27,9 +28,12 @@ PCL_UVOL_EXPORTS pcl::PCLPointCloud2
 toGaussians(const pcl::PointCloud<PointSplat>& splats, const std::vector<Rgba>& colors);
 
 /** \brief The splats of a cloud as Gaussians in the colours of a field.
- * \param color a scalar field, "rgb", "none", or "auto" for usualColorField()
- * \throws InvalidArgument for an unknown field */
+ * \param field a scalar field, "rgb", or "" for the colour of the material
+ * \param mapping of its values
+ * \throws InvalidArgument as colorPoints */
 PCL_UVOL_EXPORTS pcl::PCLPointCloud2
-makeGaussians(const CloudView& splats, const std::string& color);
+makeGaussians(const CloudView& splats,
+              const std::string& field,
+              const ColorMapping& mapping);
 
 } // namespace pcl_uvol

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "render/point_colors.h"
 
+#include "common/printable.h"
 #include "common/scalar_field.h"
 #include <pcl_uvol/common/exceptions.h>
 
@@ -126,12 +127,29 @@ hasIsovalues(const CloudView& cloud)
   return false;
 }
 
+std::vector<double>
+listIsovalues(const CloudView& cloud)
+{
+  constexpr std::size_t most = 20;
+  return findField(cloud.fields, isovalues) == nullptr
+             ? std::vector<double>()
+             : listCategories(cloud, isovalues, most);
+}
+
 std::string
 usualColorField(const CloudView& cloud)
 {
   if (hasColors(cloud))
     return "rgb";
   return hasIsovalues(cloud) ? isovalues : "";
+}
+
+std::string
+resolveColor(const CloudView& cloud, const std::string& choice)
+{
+  if (choice == "auto")
+    return usualColorField(cloud);
+  return choice == "none" ? "" : choice;
 }
 
 std::vector<double>
@@ -226,6 +244,25 @@ findColorScale(const CloudView& cloud,
   return {low, high, mapping.is_logarithmic};
 }
 
+void
+warnOfLogarithms(const CloudView& cloud,
+                 const std::string& field,
+                 const ColorMapping& mapping,
+                 Report& report)
+{
+  if (!mapping.is_logarithmic || field.empty() || field == "rgb" || field == "rgba")
+    return;
+  const ScalarField scalar(cloud.fields, field);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < cloud.count; ++i)
+    count += scalar.read(cloud.point(i)) <= 0.0 ? 1 : 0;
+  if (count > 0)
+    report.warnings.push_back(
+        "The values of " + quoteText(field) + " are not above 0 at " +
+        std::to_string(count) + " of " + std::to_string(cloud.count) +
+        " points, where they have no logarithm: these points are grey.");
+}
+
 PointColors
 colorPoints(const CloudView& cloud,
             const std::string& field,
@@ -240,9 +277,12 @@ colorPoints(const CloudView& cloud,
       colorByCategory(cloud, field, mapping.map, colored))
     return colored;
   // In parts of the range: floats do not hold the digits of time stamps.
-  std::vector<float> parts(cloud.count);
-  for (std::size_t i = 0; i < cloud.count; ++i)
-    parts[i] = static_cast<float>(colored.scale.placeOf(scalar.read(cloud.point(i))));
+  std::vector<float> parts(cloud.count, std::numeric_limits<float>::quiet_NaN());
+  for (std::size_t i = 0; i < cloud.count; ++i) {
+    const double value = scalar.read(cloud.point(i));
+    if (colored.scale.hasPlace(value))
+      parts[i] = static_cast<float>(colored.scale.placeOf(value));
+  }
   colored.colors = mapping.map.apply(parts, 0.0, 1.0);
   return colored;
 }

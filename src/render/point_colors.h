@@ -5,6 +5,7 @@
 #include "render/color_scale.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/render/color_map.h>
 
 #include <array>
@@ -34,10 +35,20 @@ hasColors(const CloudView& cloud);
 PCL_UVOL_EXPORTS bool
 hasIsovalues(const CloudView& cloud);
 
+/** \brief The isovalues of points, ascending; none of points without, and of so many
+ * that they are a field. */
+PCL_UVOL_EXPORTS std::vector<double>
+listIsovalues(const CloudView& cloud);
+
 /** \brief What a cloud is coloured by where nobody says: "rgb" if it has colours, else
  * "isovalue" if it has several, else "", the material's colour. */
 PCL_UVOL_EXPORTS std::string
 usualColorField(const CloudView& cloud);
+
+/** \brief The field that a choice colours a cloud by: "auto" is usualColorField(), and
+ * "none" is "". */
+PCL_UVOL_EXPORTS std::string
+resolveColor(const CloudView& cloud, const std::string& choice);
 
 /** \brief Values of a field that stand for categories, ascending: whole numbers, and
  * isovalues.
@@ -91,8 +102,17 @@ findColorScale(const CloudView& cloud,
                const std::string& field,
                const ColorMapping& mapping);
 
+/** \brief Warn of values that a logarithmic scale has no colour for.
+ * \throws InvalidArgument for an unknown field */
+PCL_UVOL_EXPORTS void
+warnOfLogarithms(const CloudView& cloud,
+                 const std::string& field,
+                 const ColorMapping& mapping,
+                 Report& report);
+
 /** \brief Colour a cloud. A map of categories colours whole numbers and
- * isovalues by themselves, whatever the range, see colorCategories.
+ * isovalues by themselves, whatever the range, see colorCategories. Values without a
+ * number, or without a logarithm where it takes one, are grey.
  * \param field a scalar field, as in ScalarField, or "rgb" for the cloud's own colours
  * \throws InvalidArgument as findColorScale */
 PCL_UVOL_EXPORTS PointColors

@@ -126,7 +126,14 @@ TEST_F(PictureFiles, OtherEndingsAndFoldersAreRefused)
 {
   checkPicturePath(folder_ / "a.svg");
   checkPicturePath(folder_ / "a.PNG");
-  EXPECT_THROW(checkPicturePath(folder_ / "a.gif"), pcl_uvol::IOError);
+  for (const bool or_page : {false, true})
+    try {
+      checkPicturePath(folder_ / "a.gif", or_page);
+      ADD_FAILURE();
+    }
+    catch (const pcl_uvol::IOError& error) {
+      EXPECT_EQ(or_page, std::string(error.what()).find(".html") != std::string::npos);
+    }
   EXPECT_THROW(checkPicturePath(folder_ / "missing/a.svg"), pcl_uvol::IOError);
   EXPECT_THROW(checkPicturePath(folder_ / "missing/a.png"), pcl_uvol::IOError);
   EXPECT_EQ("AAECAwQ=", encodeBase64("\0\1\2\3\4", 5));

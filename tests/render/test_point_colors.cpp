@@ -208,8 +208,16 @@ TEST(PointColors, AreLogarithmicOnRequest)
   EXPECT_NEAR(1e-3, colorPoints(view, "q", mapping).scale.low, 1e-12);
   mapping.range = {1.0, 1000.0};
   const PointColors colored = colorPoints(view, "q", mapping);
-  const std::vector<float> places{0.0f, 0.0f, 1.0f / 3.0f, 1.0f, 0.0f, 0.0f};
+  constexpr float none = std::numeric_limits<float>::quiet_NaN();
+  const std::vector<float> places{0.0f, 0.0f, 1.0f / 3.0f, 1.0f, none, none};
   EXPECT_EQ(mapping.map.apply(places, 0.0, 1.0), colored.colors);
+  pcl_uvol::Report report;
+  warnOfLogarithms(view, "rgb", mapping, report);
+  warnOfLogarithms(view, "q", pcl_uvol::ColorMapping(), report);
+  EXPECT_TRUE(report.warnings.empty());
+  warnOfLogarithms(view, "q", mapping, report);
+  ASSERT_EQ(1u, report.warnings.size());
+  EXPECT_NE(std::string::npos, report.warnings[0].find("at 2 of 6 points"));
   mapping.range = {0.0, 1.0};
   EXPECT_THROW(colorPoints(view, "q", mapping), InvalidArgument);
   const auto negative = makeScalar({-1.0f, 0.0f});

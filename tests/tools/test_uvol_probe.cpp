@@ -342,6 +342,17 @@ TEST_F(ProbeTool, FieldsMayBeExpressions)
       << mistaken.err;
 }
 
+TEST_F(ProbeTool, TellsOfValuesThatHaveNoLogarithm)
+{
+  const std::string plane =
+      "-field wave -plane z=0.5 -size 20 -png " + (folder_ / "a.png");
+  const auto logarithmic = run(plane + " -log");
+  EXPECT_EQ(0, logarithmic.exit_code);
+  EXPECT_NE(std::string::npos, logarithmic.err.find("and have no logarithm"))
+      << logarithmic.err;
+  EXPECT_EQ(std::string::npos, run(plane).err.find("logarithm"));
+}
+
 TEST_F(ProbeTool, RefusesNonsense)
 {
   const std::string line = "-field wave -line 0,0,0,1,1,1 ";

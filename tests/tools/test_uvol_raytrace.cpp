@@ -170,6 +170,28 @@ TEST_F(RaytraceTool, OrbitsAndReportsInJson)
     EXPECT_TRUE(std::filesystem::exists(folder_ / frame)) << frame;
 }
 
+TEST_F(RaytraceTool, PicturesOfScenesSayWhereTheyAreFrom)
+{
+  const std::string scene = folder_ / "torus.scene";
+  uvol_test::writeFile(scene,
+                       "size 40 30\ncamera eye 0 -9 0.5 at 0 0 0.25 fov 20\n"
+                       "cloud \"" +
+                           surface() + "\"\n");
+  for (const auto& [options, camera] :
+       {std::pair("", "-eye 0,-9,0.5 -at 0,0,0.25 -up 0,0,1 -fov 20"),
+        std::pair(" -eye 1,-8,0.5", "-eye 1,-8,0.5 -at 0,0,0.25 -up 0,0,1 -fov 20")}) {
+    const CommandResult result = run(scene + " " + picture_ + options);
+    ASSERT_EQ(0, result.exit_code) << result.err;
+    const std::string bytes = uvol_test::readFile(picture_);
+    EXPECT_NE(std::string::npos, bytes.find(std::string("Camera\0", 7) + camera))
+        << options;
+    EXPECT_NE(std::string::npos,
+              bytes.find(std::string("Isovalue\0"
+                                     "0",
+                                     10)));
+  }
+}
+
 TEST_F(RaytraceTool, IsosurfacesAreTracedAtOnce)
 {
   const std::string samples = folder_ / "s.pcd", out = folder_ / "s.ply";

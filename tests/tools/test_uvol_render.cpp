@@ -259,6 +259,47 @@ TEST_F(RenderTool, OrbitWritesNumberedFrames)
   EXPECT_EQ("out_11.png", names[12]);
 }
 
+TEST_F(RenderTool, OrbitsOfAllViewsGoAboutTheUpwardDirection)
+{
+  // The sphere's colours by height are rings from above, in all frames.
+  ASSERT_EQ(0, run("-orbit 4 -size 60 -view top -color z -no-bar").exit_code);
+  std::vector<std::vector<std::uint8_t>> frames;
+  for (const char* frame : {"out_0.png", "out_1.png", "out_2.png"}) {
+    int channels = 0;
+    frames.push_back(uvol_test::readPng(folder_ / frame, channels).color);
+  }
+  const auto distance = [&](std::size_t a, std::size_t b) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < frames[a].size(); ++i)
+      sum += std::abs(frames[a][i] - frames[b][i]);
+    return sum / static_cast<double>(frames[a].size());
+  };
+  EXPECT_LT(distance(0, 1), 4.0);
+  EXPECT_LT(distance(0, 2), 4.0);
+}
+
+TEST_F(RenderTool, TellsOfValuesThatHaveNoLogarithm)
+{
+  for (const char* tool : {"uvol_render ", "uvol_raytrace "}) {
+    const auto result = runCommand(tool + in_ + " " + out_ +
+                                   " -size 60 -view front -no-bar -color z -log");
+    ASSERT_EQ(0, result.exit_code) << result.err;
+    EXPECT_NE(std::string::npos, result.err.find("of 5000 points, where they have no"))
+        << result.err;
+    // The lower half is grey.
+    int gray = 0, colourful = 0;
+    const auto picture = pixels();
+    for (std::size_t i = 0; i + 3 <= picture.size(); i += 3) {
+      const bool is_gray = std::abs(picture[i] - picture[i + 1]) < 4 &&
+                           std::abs(picture[i] - picture[i + 2]) < 4;
+      gray += is_gray && picture[i] < 250 ? 1 : 0;
+      colourful += is_gray ? 0 : 1;
+    }
+    EXPECT_GT(gray, 300) << tool;
+    EXPECT_GT(colourful, 300) << tool;
+  }
+}
+
 TEST_F(RenderTool, ReportNamesBackendAndPasses)
 {
   const auto result = run("-size 64 -json");

@@ -257,6 +257,12 @@ TEST_F(SplatsTool, GaussiansLieInThePlanesOfTheSplats)
   EXPECT_TRUE(bytes == uvol_test::readFile(other));
   ASSERT_EQ(0, run("-gaussians -color curvature").exit_code);
   EXPECT_TRUE(bytes != uvol_test::readFile(out_));
+  const std::string shaded = uvol_test::readFile(out_);
+  for (const char* look : {"-colormap gray", "-range 0,1", "-log"}) {
+    ASSERT_EQ(0, run(std::string("-gaussians -color curvature ") + look).exit_code);
+    EXPECT_TRUE(shaded != uvol_test::readFile(out_)) << look;
+    EXPECT_EQ(2, run(look).exit_code) << look;
+  }
   EXPECT_EQ(2, run("-color curvature").exit_code);
   EXPECT_EQ(2,
             runCommand("uvol_splats " + in_ + " " + folder_ / "out.pcd" + " -gaussians")

@@ -127,14 +127,17 @@ encodeBase64(const void* bytes, std::size_t count)
 }
 
 void
-checkPicturePath(const std::string& path)
+checkPicturePath(const std::string& path, bool or_page)
 {
   if (isSvg(path) || isPdf(path))
     pcl_uvol::io::checkWritable(path);
   else if (pcl_uvol::io::getEnding(path) == ".png")
     pcl_uvol::checkPngPath(path);
   else
-    pcl_uvol::io::throwUnwritable(path, "pictures are written as .png, .svg or .pdf");
+    pcl_uvol::io::throwUnwritable(
+        path,
+        or_page ? "pictures are written as .png, .svg or .pdf, web pages as .html"
+                : "pictures are written as .png, .svg or .pdf");
 }
 
 PictureFile::PictureFile(const std::string& path, double dots_per_inch)

@@ -48,7 +48,7 @@ public:
   Ink
   colorOf(double value) const
   {
-    return std::isnan(value) ? ground : inkOf(map_.at(placeOf(value)));
+    return scale_.hasPlace(value) ? inkOf(map_.at(placeOf(value))) : ground;
   }
 
 private:

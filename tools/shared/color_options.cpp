@@ -6,7 +6,7 @@
 namespace uvol_tools {
 
 void
-ColorOptions::declare(Options& options)
+ColorOptions::declareMapping(Options& options)
 {
   std::string names;
   for (const std::string& name : pcl_uvol::ColorMap::names())
@@ -18,6 +18,12 @@ ColorOptions::declare(Options& options)
                "OkabeIto for up to eight isovalues or whole numbers, tab10 for ten)");
   options.numbers("range", "low,high", 2, range_, "values at the ends of the colours");
   options.flag("log", is_logarithmic_, "colours by the logarithm of the values");
+}
+
+void
+ColorOptions::declare(Options& options)
+{
+  declareMapping(options);
   options
       .text("label",
             "text",

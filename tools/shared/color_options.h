@@ -19,6 +19,10 @@ public:
   void
   declare(Options& options);
 
+  /** \brief All but -label, where nothing is written beside the colours. */
+  void
+  declareMapping(Options& options);
+
   /** \brief What must parse, and fit together.
    * \throws UsageError */
   void

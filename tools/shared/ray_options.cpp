@@ -141,21 +141,23 @@ void
 traceScene(const Options& options,
            const ViewOptions& view,
            pcl_uvol::RayTracer& tracer,
-           const std::optional<pcl_uvol::Camera>& camera,
-           const std::array<double, 3>& origin,
+           const pcl_uvol::SceneFile& file,
            const std::string& output,
            pcl_uvol::Report& report)
 {
   tracer.setNumberOfThreads(options.threads());
   tracer.setProgressCallback(report.progress);
   const auto findCamera = [&](std::uint64_t frame) {
-    return camera ? view.turned(view.adjusted(options, *camera, origin), frame)
-                  : view.makeCamera({tracer.getBounds()},
-                                    origin,
-                                    ViewOptions::wholePicture(tracer.getWidth(),
-                                                              tracer.getHeight()),
-                                    frame);
+    return file.camera
+               ? view.turned(view.adjusted(options, *file.camera, file.origin), frame)
+               : view.makeCamera(
+                     {tracer.getBounds()},
+                     file.origin,
+                     ViewOptions::wholePicture(tracer.getWidth(), tracer.getHeight()),
+                     frame);
   };
+  const DataBox data{
+      {}, Eigen::Vector3d(file.origin.data()), Eigen::Vector3d::Ones(), ""};
   pcl_uvol::Report tracing;
   for (std::uint64_t frame = 0; frame < view.countFrames(); ++frame) {
     const pcl_uvol::Camera seen_by = findCamera(frame);
@@ -164,11 +166,8 @@ traceScene(const Options& options,
     tracer.render(image);
     tracing = tracer.getReport();
     std::vector<pcl_uvol::ImageText> texts = describeOrigin(options);
-    texts.emplace_back(
-        "Camera",
-        describeCamera(
-            seen_by,
-            {{}, Eigen::Vector3d(origin.data()), Eigen::Vector3d::Ones(), ""}));
+    addIsovalues({file.isovalues.begin(), file.isovalues.end()}, texts);
+    texts.emplace_back("Camera", describeCamera(seen_by, data));
     const pcl_uvol::StepTimer timer(report, "write");
     PictureFile(view.frameName(output, frame), view.getDotsPerInch())
         .save(image, texts);

@@ -2,6 +2,7 @@
 // Ray tracing on the command line.
 #pragma once
 
+#include "io/scene_file.h"
 #include "shared/splat_options.h"
 #include "shared/view_options.h"
 #include <pcl_uvol/common/cloud_view.h>
@@ -78,14 +79,12 @@ makeSplatScene(const pcl_uvol::CloudView& cloud,
                int side);
 
 /** \brief Draw and write all frames of a scene, whose size the tracer has.
- * \param camera that of the scene file, unless the command line has another one
- * \param origin of its coordinates */
+ * \param file has its camera, unless the command line has another one */
 void
 traceScene(const Options& options,
            const ViewOptions& view,
            pcl_uvol::RayTracer& tracer,
-           const std::optional<pcl_uvol::Camera>& camera,
-           const std::array<double, 3>& origin,
+           const pcl_uvol::SceneFile& file,
            const std::string& output,
            pcl_uvol::Report& report);
 

@@ -233,7 +233,12 @@ ViewOptions::addColor(const Options& options,
              "computes them there",
              options,
              report);
-  warnOfNames(pcl_uvol::viewOf(points.cloud), labels_, color_, report);
+  const pcl_uvol::CloudView cloud = pcl_uvol::viewOf(points.cloud);
+  warnOfNames(cloud, labels_, color_, report);
+  if (colors_.isLogarithmic()) {
+    const std::string field = colorField(cloud);
+    pcl_uvol::warnOfLogarithms(cloud, field, mapColors(cloud, field), report);
+  }
 }
 
 void
@@ -276,9 +281,7 @@ ViewOptions::getSupersampling() const
 std::string
 ViewOptions::colorField(const pcl_uvol::CloudView& cloud) const
 {
-  if (color_ == "auto")
-    return pcl_uvol::usualColorField(cloud);
-  return color_ == "none" ? "" : color_;
+  return pcl_uvol::resolveColor(cloud, color_);
 }
 
 pcl_uvol::ColorMapping

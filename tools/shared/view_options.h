@@ -355,6 +355,11 @@ private:
   std::optional<SharedView> shared_;
 };
 
+/** \brief Add isovalues to what a picture tells of itself, if there are any. */
+void
+addIsovalues(const std::vector<double>& isovalues,
+             std::vector<pcl_uvol::ImageText>& texts);
+
 /** \brief The options that give the same view again: -eye, -at, -up and -fov.
  * \param data what is added to coordinates, and divides them */
 std::string

@@ -11,26 +11,17 @@
 
 namespace uvol_tools {
 
-namespace {
-
-/** The isovalues of a surface that has some, but not so many that they are a field. */
 void
-addIsovalues(const pcl_uvol::CloudView& cloud, std::vector<pcl_uvol::ImageText>& texts)
+addIsovalues(const std::vector<double>& isovalues,
+             std::vector<pcl_uvol::ImageText>& texts)
 {
-  constexpr const char* field = "isovalue";
-  if (std::none_of(cloud.fields.begin(), cloud.fields.end(), [&](const auto& known) {
-        return known.name == field;
-      }))
-    return;
   std::ostringstream text;
   text << std::setprecision(7); // isovalues of a cloud are floats
-  for (const double value : pcl_uvol::listCategories(cloud, field, most_categories))
+  for (const double value : isovalues)
     text << (text.tellp() > 0 ? ", " : "") << value;
-  if (text.tellp() > 0)
+  if (!isovalues.empty())
     texts.emplace_back("Isovalue", text.str());
 }
-
-} // namespace
 
 std::string
 describeCamera(const pcl_uvol::Camera& camera, const DataBox& data)
@@ -147,7 +138,7 @@ ViewOptions::drawFrames(const Options& options,
 {
   for (std::uint64_t frame = 0; frame < countFrames(); ++frame) {
     std::vector<pcl_uvol::ImageText> texts = describeOrigin(options);
-    addIsovalues(surface.cloud, texts);
+    addIsovalues(pcl_uvol::listIsovalues(surface.cloud), texts);
     const PictureFile file(frameName(output, frame), getDotsPerInch());
     pcl_uvol::Image picture = drawFrame(surface, frame, draw, texts);
     if (drawsBar(surface.cloud))

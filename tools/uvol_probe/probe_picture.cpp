@@ -4,11 +4,13 @@
 #include "charts/line_plot.h"
 #include "charts/picture_file.h"
 #include "charts/slice_plot.h"
+#include "common/printable.h"
 #include "common/scalar_field.h"
 #include <pcl_uvol/common/cloud_view.h>
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <limits>
@@ -124,7 +126,8 @@ ProbePicture::drawSlice(const std::string& field,
                         const std::vector<float>& values,
                         const AxisScale& of_samples,
                         const pcl_uvol::Dataset& samples,
-                        PictureSeries* series) const
+                        PictureSeries* series,
+                        pcl_uvol::Report& report) const
 {
   const PictureAxis across(slice.lattice, slice.horizontal),
       up(slice.lattice, slice.vertical);
@@ -142,6 +145,14 @@ ProbePicture::drawSlice(const std::string& field,
   plot.scale =
       range ? pcl_uvol::ColorScale{(*range)[0], (*range)[1], colors_.isLogarithmic()}
             : findColorScale(values, of_samples, colors_.isLogarithmic());
+  const auto hidden = std::count_if(values.begin(), values.end(), [&plot](float value) {
+    return !std::isnan(value) && !plot.scale.hasPlace(value);
+  });
+  if (hidden > 0)
+    report.warnings.push_back("The picture is grey at " + std::to_string(hidden) +
+                              " of " + std::to_string(values.size()) +
+                              " places, where values of " + pcl_uvol::quoteText(field) +
+                              " are not above 0 and have no logarithm.");
   plot.contours = contours_;
   plot.paper = paper_;
   if (near_ >= 0.0) {

@@ -9,6 +9,7 @@
 #include "shared/options.h"
 #include "shared/picture_series.h"
 #include <pcl_uvol/common/dataset.h>
+#include <pcl_uvol/common/stage.h>
 
 #include <string>
 #include <vector>
@@ -48,14 +49,17 @@ public:
    *
    * \param of_samples range of the samples' values
    *
-   * \param series that draws it with its other slices; null: it is drawn now */
+   * \param series that draws it with its other slices; null: it is drawn now
+   *
+   * \param report warns of values that have no colour */
   void
   drawSlice(const std::string& field,
             const pcl_uvol::detail::Slice& slice,
             const std::vector<float>& values,
             const AxisScale& of_samples,
             const pcl_uvol::Dataset& samples,
-            PictureSeries* series) const;
+            PictureSeries* series,
+            pcl_uvol::Report& report) const;
 
 private:
   std::string path_, unit_;

@@ -203,7 +203,8 @@ Runner::drawSlice(const Slice& slice, const std::vector<float>& values)
                            values,
                            {field.sample_low, field.sample_high},
                            samples_,
-                           probe_.series);
+                           probe_.series,
+                           report_);
 }
 
 std::vector<pcl_uvol::LatticeArray>

@@ -164,9 +164,7 @@ makeCamera(const PictureParameters& parameters,
 std::string
 findColorField(const PictureParameters& parameters, const CloudView& cloud)
 {
-  if (parameters.color == "auto")
-    return usualColorField(cloud);
-  return parameters.color == "none" ? "" : parameters.color;
+  return resolveColor(cloud, parameters.color);
 }
 
 ColorMapping

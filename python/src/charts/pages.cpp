@@ -64,6 +64,7 @@ writePage(const std::string& path,
     else {
       const ColorMapping mapping =
           makeColorMapping(parameters, cloud, points.labels, field);
+      warnOfLogarithms(cloud, field, mapping, report);
       const PointColors colors = colorPoints(cloud, field, mapping);
       discs.setColors(colors.colors);
       if (parameters.bar && uvol_tools::hasLegend(cloud, points.labels, field)) {

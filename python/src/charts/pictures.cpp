@@ -142,6 +142,7 @@ private:
       mapping_ = makeColorMapping(look_, cloud_, points_->labels, field_);
     has_legend_ = look_.bar && uvol_tools::hasLegend(cloud_, points_->labels, field_);
     uvol_tools::warnOfNames(cloud_, points_->labels, field_, preparation_);
+    warnOfLogarithms(cloud_, field_, mapping_, preparation_);
     if (rays_)
       prepareTracer();
     else

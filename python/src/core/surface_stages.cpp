@@ -145,7 +145,9 @@ DatasetPtr
 describeGaussians(const Dataset& splats, const std::string& color)
 {
   auto gaussians = std::make_shared<Dataset>();
-  gaussians->cloud = makeGaussians(viewOf(splats.cloud), color);
+  const CloudView view = viewOf(splats.cloud);
+  const std::string field = resolveColor(view, color);
+  gaussians->cloud = makeGaussians(view, field, usualColorMapping(view, field));
   return gaussians;
 }
 
