@@ -187,12 +187,31 @@ TEST(DataBox, HasValuesInEvenSteps)
   using Texts = std::vector<std::string>;
   EXPECT_EQ((Texts{"-40", "-20", "0", "20", "40"}), valuesAlongX(-45.0, 45.0, 12));
   EXPECT_EQ((Texts{"-40", "0", "40"}), valuesAlongX(-45.0, 45.0, 30));
-  // Of one value no scale can be read: the outermost ones, unless they would meet.
+  // Of one value no scale can be read.
   EXPECT_EQ((Texts{"-40", "40"}), valuesAlongX(-45.0, 45.0, 80));
-  EXPECT_EQ((Texts{"0"}), valuesAlongX(-45.0, 45.0, 200));
+  EXPECT_EQ((Texts{"-40", "40"}), valuesAlongX(-45.0, 45.0, 200));
   EXPECT_EQ((Texts{"20", "40", "60", "80"}), valuesAlongX(15.0, 95.0, 12));
   EXPECT_EQ((Texts{"20", "60"}), valuesAlongX(15.0, 95.0, 45));
   EXPECT_EQ((Texts{"20", "80"}), valuesAlongX(15.0, 95.0, 90));
+}
+
+TEST(DataBox, LettersOfAThinBoxMakeRoomForEachOther)
+{
+  DataBox box = unitBox();
+  box.box.max().z() = 0.02;
+  const Perspective perspective(
+      lookAt({2.5, -3.0, 1.0}, {0.5, 0.5, 0.0}), side, side, 0, 0);
+  const auto marks =
+      uvol_tools::layOutAxis(uvol_tools::SeenBox(perspective, box), 2, style);
+  ASSERT_EQ(3u, marks.letters.size());
+  ASSERT_EQ(2u, marks.ticks.size());
+  const auto& low = marks.letters[0].line;
+  const auto& high = marks.letters[1].line;
+  EXPECT_EQ("0", low.text);
+  EXPECT_EQ("0.02", high.text);
+  EXPECT_LT(std::abs(marks.ticks[0][0][1] - marks.ticks[1][0][1]), 6.0);
+  EXPECT_GE(low.row - high.row, 10);
+  EXPECT_LE(low.row - high.row, 12);
 }
 
 TEST(DataBox, IsDrawnFromInsideAndWithoutAThickness)

@@ -87,23 +87,56 @@ private:
       letters.push_back(
           {line(labels.texts[i], beyond(at, values_apart * style_.font)), at});
     }
+    if (letters.size() == 2)
+      moveApart(letters[0], letters[1]);
     return letters;
   }
 
-  /** True if letters of neighbours along the edge do not meet.
-   * \param apart least distance of the pixels around them, in sizes of letters: columns
+  /** Letters of two values that meet, along the edge: ticks say where they belong. */
+  void
+  moveApart(AxisLetters& low, AxisLetters& high) const
+  {
+    const Eigen::Vector2d narrow(0.2, -0.35); // digits are not as high as their font
+    const Eigen::Vector2d along(high.place[0] - low.place[0],
+                                high.place[1] - low.place[1]);
+    const AxisLetters first = low, second = high;
+    for (double way = 0.0; hasExtent(along) && meet(low, high, narrow); way += 0.5) {
+      const Eigen::Vector2d move = way * along.normalized();
+      low.line.column = first.line.column - rounded(move.x());
+      low.line.row = first.line.row - rounded(move.y());
+      high.line.column = second.line.column + rounded(move.x());
+      high.line.row = second.line.row + rounded(move.y());
+    }
+  }
+
+  /** False along the line of sight. */
+  static bool
+  hasExtent(const Eigen::Vector2d& along)
+  {
+    constexpr double least = 1.0; // pixels
+    return along.norm() >= least;
+  }
+
+  /** \param apart least distance of the pixels around letters, in their sizes: columns
    * and rows */
   bool
-  haveRoom(const std::vector<double>& values, const Eigen::Vector2d& apart) const
+  meet(const AxisLetters& a, const AxisLetters& b, const Eigen::Vector2d& apart) const
   {
+    Eigen::AlignedBox2d wide = boxAround(a.line);
+    wide.min() -= style_.font * apart;
+    wide.max() += style_.font * apart;
+    return wide.intersects(boxAround(b.line));
+  }
+
+  /** True if letters of neighbours along the edge do not meet. */
+  bool
+  haveRoom(const std::vector<double>& values) const
+  {
+    const Eigen::Vector2d apart(0.6, 0.0);
     const std::vector<AxisLetters> letters = letter(values);
-    const Eigen::Vector2d pixels = style_.font * apart;
     return std::adjacent_find(
                letters.begin(), letters.end(), [&](const auto& a, const auto& b) {
-                 Eigen::AlignedBox2d wide = boxAround(a.line);
-                 wide.min() -= pixels;
-                 wide.max() += pixels;
-                 return wide.intersects(boxAround(b.line));
+                 return meet(a, b, apart);
                }) == letters.end();
   }
 
@@ -128,15 +161,16 @@ private:
   {
     if (values.size() < 2)
       return values;
-    const Eigen::Vector2d wide(0.6, 0.0), narrow(0.2, -0.35); // digits are not as high
     const auto all = static_cast<long>(values.size());
     for (long stride = 1; stride < all; ++stride) {
       std::vector<double> kept = everyNth(values, stride);
-      if (kept.size() >= 2 && haveRoom(kept, wide))
+      if (kept.size() >= 2 && haveRoom(kept))
         return kept;
     }
-    std::vector<double> ends = {values.front(), values.back()};
-    return haveRoom(ends, narrow) ? ends : everyNth(values, all);
+    const Pixel low = pixelOf(values.front()), high = pixelOf(values.back());
+    return hasExtent({high[0] - low[0], high[1] - low[1]})
+               ? std::vector<double>{values.front(), values.back()}
+               : everyNth(values, all);
   }
 
   void

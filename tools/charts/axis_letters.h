@@ -30,8 +30,9 @@ struct AxisMarks {
   std::vector<AxisLetters> letters; ///< values, then the name
 };
 
-/** \brief The round values of an axis, as many as their letters leave room for, but two
- * if these have room, and its name; nothing without an edge to stand at. */
+/** \brief The round values of an axis, as many as their letters leave room for, but the
+ * outermost two at least, whose letters make room for each other, and its name; nothing
+ * without an edge to stand at. */
 AxisMarks
 layOutAxis(const SeenBox& box, int axis, const MarkStyle& style);
 

@@ -346,11 +346,14 @@ Figure::layOut(int width, int height, int views_width) const
                                 : titleRows(letterSize(height, least_letters),
                                             wrapTitle(width, height).size());
   const int count = std::max(1, static_cast<int>(views.size()));
-  // As many columns as leave the largest square for each view.
-  int columns = 1, largest = 0;
+  // As many columns as leave the largest square for each view, beside letters of axes.
+  constexpr int beside = 9, below = 6; // sizes of letters
+  int columns = 1, largest = std::numeric_limits<int>::min();
   for (int across = 1; across <= count; ++across) {
     const int down = (count + across - 1) / across;
-    const int side = std::min(views_width / across, (height - top) / down);
+    const int letters = has_ticks ? letterSize(height / down, least_letters) : 0;
+    const int side = std::min(views_width / across - beside * letters,
+                              (height - top) / down - below * letters);
     if (side > largest) {
       largest = side;
       columns = across;
