@@ -378,23 +378,36 @@ Figure::layOut(int width, int height, int views_width) const
 }
 
 void
+Figure::nameView(pcl_uvol::Image& image,
+                 const pcl_uvol::Image& ground,
+                 const PictureCell& cell,
+                 const MarkStyle& style)
+{
+  const int font = style.font;
+  const TextLine name{cell.view,
+                      font,
+                      cell.left + font,
+                      cell.top + 3 * font / 2,
+                      TextAnchor::Left,
+                      false,
+                      style.ink};
+  const int half_height = rounded(0.6 * font);
+  fadeBelow(image,
+            ground,
+            {0, measureText(name.text, font), -half_height, half_height},
+            {static_cast<double>(name.column), static_cast<double>(name.row)});
+  writeLine(image, name);
+}
+
+void
 Figure::drawBehind(pcl_uvol::Image& image,
                    const pcl_uvol::Image& ground,
                    const PictureCell& cell,
                    const pcl_uvol::Camera& camera,
                    const DataBox& box) const
 {
-  const MarkStyle style = styleOf(cell, ground);
   if (showsBox())
-    drawBoxBehind(image, look(camera, cell), box, style, has_ticks);
-  if (views.size() > 1)
-    writeText(image,
-              cell.view,
-              style.font,
-              cell.left + style.font,
-              cell.top + 3 * style.font / 2,
-              TextAnchor::Left,
-              style.ink);
+    drawBoxBehind(image, look(camera, cell), box, styleOf(cell, ground), has_ticks);
 }
 
 void
@@ -409,6 +422,8 @@ Figure::drawBefore(pcl_uvol::Image& image,
   const int font = style.font;
   if (has_box)
     drawBoxBefore(image, perspective, box, style);
+  if (views.size() > 1)
+    nameView(image, ground, cell, style);
   const double length = triadLength(cell, font);
   if (has_scale_bar) {
     constexpr double longest = 0.25; // of the view's width

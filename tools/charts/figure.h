@@ -141,6 +141,13 @@ private:
            const DataBox& box,
            const Ground& ground) const;
 
+  /** Write from which side a view is seen. */
+  static void
+  nameView(pcl_uvol::Image& image,
+           const pcl_uvol::Image& ground,
+           const PictureCell& cell,
+           const MarkStyle& style);
+
   /** Draw what is behind a surface, or beside it.
    * \param ground the picture before anything was drawn */
   void
