@@ -88,12 +88,8 @@ traceScene(const Options& options, const Arguments& arguments, Report& report)
     file.camera.reset();
   if (!file.camera && options.given("at") && !options.given("eye"))
     throw UsageError("-at needs -eye where the scene has no camera.");
-  uvol_tools::traceScene(options,
-                         arguments.view,
-                         tracer,
-                         file,
-                         arguments.output,
-                         report);
+  uvol_tools::traceScene(
+      options, arguments.view, tracer, file, arguments.output, report);
 }
 
 /** A picture on its way. */

@@ -40,8 +40,8 @@ struct FittedPoints {
  * One that turns fills as much on the right as on the left, and above as below. The
  * point looked at becomes the one at the points' middle distance, or for a camera that
  * turns, the one of the axis through the middle of their box. Points that lie in less
- * than two places leave the camera as it is. \param aspect width / height
- */
+ * than two places leave the camera as it is.
+ * \param aspect width / height */
 PCL_UVOL_EXPORTS Camera
 fitToPoints(const Camera& camera,
             const FittedPoints& points,

@@ -186,7 +186,8 @@ TEST(SlicePlot, LogarithmicColoursPartDecadesEvenly)
   plot.values[0] = 0.0f;
   const Image image = drawSlicePlot(plot);
   EXPECT_NEAR(pixelAt(image, left + 300, 250)[0], 128, 1);
-  EXPECT_EQ(pixelAt(image, left, top + 511)[0], 0);
+  // as where there is no value
+  EXPECT_EQ(pixelAt(image, left, top + 511), (std::array<int, 3>{232, 232, 232}));
 }
 
 TEST(SlicePlot, SamplesLieAtTheirPlaces)
