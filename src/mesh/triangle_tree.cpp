@@ -131,6 +131,7 @@ TriangleTree::TriangleTree(const std::vector<Eigen::Vector3d>& places,
 {
   std::iota(order_.begin(), order_.end(), 0u);
   std::vector<Eigen::Vector3d> centers;
+  centers.reserve(triangles.size());
   for (const Triangle& triangle : triangles)
     centers.emplace_back(places[triangle[0]] + places[triangle[1]] +
                          places[triangle[2]]);

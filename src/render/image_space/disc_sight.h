@@ -24,8 +24,9 @@ struct Extents {
 inline void
 shrinkToMiddles(float low, float high, int& first, int& last)
 {
-  first = low + 0.5f > static_cast<float>(first) ? static_cast<int>(low + 0.5f) : first;
-  last = high + 0.5f < static_cast<float>(last) ? static_cast<int>(high + 0.5f) : last;
+  const float from = low + 0.5f, to = high + 0.5f;
+  first = from > static_cast<float>(first) ? static_cast<int>(from) : first;
+  last = to < static_cast<float>(last) ? static_cast<int>(to) : last;
 }
 
 /** Room for rounding, in pixels. */

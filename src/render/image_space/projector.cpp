@@ -61,8 +61,8 @@ std::size_t
 cellsOf(const PixelBand& band)
 {
   const int rows = band.last_row - band.first_row;
-  return static_cast<std::size_t>(cellsInRow(band.width) *
-                                  ((rows + cell_rows - 1) / cell_rows));
+  return static_cast<std::size_t>(cellsInRow(band.width)) *
+         static_cast<std::size_t>((rows + cell_rows - 1) / cell_rows);
 }
 
 /** Discs of one block after another, in the order in which the blocks were drawn. */
