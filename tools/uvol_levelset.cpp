@@ -9,6 +9,7 @@
 #include "levelset/memory_need.h"
 #include "levelset/phi_cloud.h"
 #include "neighbors/sampling.h"
+#include "pipeline/guessed_isopoints.h"
 #include "pipeline/zero_level.h"
 #include "shared/level_set.h"
 #include "shared/memory_guard.h"
@@ -23,6 +24,7 @@
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 #include <pcl_uvol/levelset/level_set_evolution.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
 #include <algorithm>
 #include <array>
@@ -256,6 +258,36 @@ listAll(std::size_t points)
   return all;
 }
 
+/** Warn where the surface that is smoothed lies between lines of samples, as one that
+ * is extracted does. */
+void
+warnOfGuesses(const pcl_uvol::Dataset& samples,
+              const LevelSetParameters& parameters,
+              unsigned threads,
+              Report& report)
+{
+  pcl_uvol::IsosurfacePipelineParameters extraction;
+  extraction.isosurface.field = parameters.field;
+  extraction.isosurface.isovalues = {parameters.isovalue};
+  extraction.isosurface.scale = parameters.scale;
+  extraction.isosurface.interpolation = pcl_uvol::Interpolation::Linear;
+  extraction.normals = pcl_uvol::NormalMethod::Edge;
+  extraction.rotation = parameters.rotation;
+  pcl_uvol::IsosurfacePipeline pipeline;
+  pipeline.setInput({&samples, [](const void*) {}});
+  pipeline.setParameters(extraction);
+  pipeline.setNumberOfThreads(threads);
+  pipeline.setProgressCallback(report.progress);
+  const pcl_uvol::IsosurfaceResult result = pipeline.run();
+  const std::string warning = pcl_uvol::tellGuesses(
+      pcl_uvol::findGrounds(result.report),
+      result.sampling,
+      " The isosurface through the same samples can be tested (uvol_isosurface "
+      "-validate), and its gaps filled (-fill-gaps).");
+  if (!warning.empty())
+    report.warnings.push_back(warning);
+}
+
 /** out.ply becomes out_00010.ply. */
 std::string
 snapshotPath(const std::string& output, std::size_t steps)
@@ -351,13 +383,15 @@ run(int argc, char** argv)
           parameters,
           has_snapshots,
           pcl_uvol::estimateSurfaces(view, at_start, options.threads()).front()));
-  const uvol_tools::Fact sampling =
-      uvol_tools::describeSampling(pcl_uvol::summarizeSampling(view,
-                                                               listAll(view.count),
-                                                               parameters.field,
-                                                               parameters.scale,
-                                                               parameters.rotation,
-                                                               options.threads()));
+  const pcl_uvol::SamplingSummary sampling =
+      pcl_uvol::summarizeSampling(view,
+                                  listAll(view.count),
+                                  parameters.field,
+                                  parameters.scale,
+                                  parameters.rotation,
+                                  options.threads());
+  if (sampling.most != pcl_uvol::LocalDimension::Volume && !boxed.isPeriodic())
+    warnOfGuesses(dataset, parameters, options.threads(), report);
   pcl_uvol::LevelSetEvolution<pcl::PCLPointCloud2> evolution;
   evolution.setInputCloud(
       pcl::PCLPointCloud2::ConstPtr(&dataset.cloud, [](const void*) {}));
@@ -396,7 +430,7 @@ run(int argc, char** argv)
                              {"field", parameters.field}};
   uvol_tools::tellBox(boxed, facts);
   facts.insert(facts.end(), of_scale.begin(), of_scale.end());
-  facts.push_back(sampling);
+  facts.push_back(uvol_tools::describeSampling(sampling));
   for (const auto& fact : uvol_tools::describe(summary, !parameters.mu))
     facts.push_back(fact);
   facts.push_back(memory.describe());

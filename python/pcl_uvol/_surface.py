@@ -431,7 +431,8 @@ def isosurface(points, fields=None, **options):
         How isopoints are oriented; pca takes `normal_neighbors` (default 30).
     max_error : float or "auto", optional
         Leave out isopoints of a larger estimated error, in units of length; "auto":
-        larger than half the distance of the two samples that an isopoint lies between.
+        larger than half the distance of the two samples that an isopoint lies between, or
+        half a gap that was filled; crossings with lines of samples stay.
     drop_bridged : bool
         Leave out isopoints in gaps of the sampling.
     fill_gaps : bool

@@ -60,7 +60,9 @@ mergeCoincident(const std::vector<Position>& positions,
 
 /** \brief Append the isopoints of one isovalue and their edges.
  * \param sources input index of each sample
- * \param report gets "crossing_samples", "edges", "spikes", "coincident" and times */
+ * \param report gets "crossing_samples", "edges", "spikes", "coincident" and times; of
+ * linear isopoints "examined", "examined_bridged" and "examined_rim": of how many, all
+ * or some in all parts, fits tell the support, and what it is */
 void
 appendIsopoints(const IsopointInput& input,
                 const std::vector<std::uint32_t>& sources,

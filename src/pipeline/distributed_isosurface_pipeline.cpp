@@ -57,6 +57,7 @@ IsosurfaceResult
 finishIsopoints(const Isopoints& isopoints,
                 const PartInBox& part,
                 const IsosurfacePipelineParameters& parameters,
+                const SamplingSummary& sampling,
                 Communicator& communicator,
                 unsigned threads,
                 Report&& report)
@@ -73,6 +74,7 @@ finishIsopoints(const Isopoints& isopoints,
                                              std::move(points),
                                              std::move(ends.edges),
                                              parameters,
+                                             sampling,
                                              threads,
                                              std::move(report));
   part.finish(communicator, result);
@@ -130,9 +132,13 @@ DistributedIsosurfacePipeline::run()
   if (is_gathered_)
     isopoints = gatherIsopoints(std::move(isopoints), communicator_, threads_);
   part.numberByPoints(isopoints);
-  IsosurfaceResult result = finishIsopoints(
-      isopoints, part, parameters, communicator_, threads_, std::move(report_));
-  result.sampling = sampling;
+  IsosurfaceResult result = finishIsopoints(isopoints,
+                                            part,
+                                            parameters,
+                                            sampling,
+                                            communicator_,
+                                            threads_,
+                                            std::move(report_));
   warnTogether(parameters, communicator_, result.report);
   report_ = result.report;
   return result;

@@ -141,9 +141,9 @@ runPipelineOutOfCore(PointSource& points,
                                              std::move(surface.isopoints),
                                              std::move(surface.edges),
                                              resolved,
+                                             surface.sampling,
                                              out_of_core.threads,
                                              std::move(report));
-  result.sampling = surface.sampling;
   warnOfLosses(resolved, result.surface.cloud.width, result.report);
   return result;
 }

@@ -6,6 +6,8 @@
 
 #include <pcl/point_cloud.h>
 
+#include <optional>
+
 namespace pcl_uvol {
 
 /** \brief The second half of the way, for isopoints that were extracted elsewhere, out
@@ -13,6 +15,7 @@ namespace pcl_uvol {
  * \param samples between which the edges lie; with a box that repeats they count from
  * its low corner, and isopoints outside of it are left out
  * \param parameters with the field and the scale that were taken
+ * \param sampling of all samples, if it is known
  * \param report continued
  * \param isopoints that were extracted
  * \param edges one per isopoint
@@ -22,6 +25,7 @@ finishIsosurface(const Dataset& samples,
                  pcl::PointCloud<PointIso>&& isopoints,
                  IsoEdges&& edges,
                  const IsosurfacePipelineParameters& parameters,
+                 const std::optional<SamplingSummary>& sampling,
                  unsigned threads,
                  Report&& report);
 

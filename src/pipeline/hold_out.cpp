@@ -7,7 +7,7 @@
 #include "neighbors/nearest_finder.h"
 #include "neighbors/sample_values.h"
 #include "pipeline/gap_filling.h"
-#include "pipeline/isopoint_filter.h"
+#include "pipeline/guessed_isopoints.h"
 
 #include <pcl/conversions.h>
 

@@ -215,7 +215,8 @@ IsosurfaceParameters
 withErrors(const IsosurfacePipelineParameters& parameters)
 {
   IsosurfaceParameters extraction = parameters.isosurface;
-  if (parameters.max_error || parameters.automatic_max_error || parameters.drop_bridged)
+  if (parameters.max_error || parameters.automatic_max_error ||
+      parameters.drop_bridged || parameters.fill_gaps)
     extraction.interpolation = Interpolation::Fit;
   return extraction;
 }

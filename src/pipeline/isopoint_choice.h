@@ -42,8 +42,8 @@ struct IsopointChoice {
       confidence.resize(kept);
   }
 
-  /** \brief Add the fields `method` and `orientation`, if isopoints were chosen one by
-   * one, and `confidence`, if there is any. */
+  /** \brief Add the fields `method` and `orientation`, if either was chosen one by one,
+   * and `confidence`, if there is any. */
   void
   addFields(bool is_chosen, Dataset& surface) const;
 };
@@ -55,7 +55,8 @@ bool
 returnsToEdges(const IsosurfacePipelineParameters& parameters);
 
 /** \brief What an extraction has to do so that isopoints can be chosen: bounds of the
- * error and of gaps need fits even where isopoints lie on their edges. */
+ * error, and gaps that are left out or filled, need fits even where isopoints lie on
+ * their edges. */
 IsosurfaceParameters
 withErrors(const IsosurfacePipelineParameters& parameters);
 

@@ -5,31 +5,13 @@
 #include "neighbors/periodic_box.h"
 #include "pipeline/periodic_surface.h"
 
-#include <cstddef>
 #include <cstdint>
 #include <sstream>
 #include <string>
-#include <vector>
 
 namespace pcl_uvol {
 
 namespace {
-
-/** Part of an edge that an isopoint's error must not exceed for max_error to keep it
- * when it is automatic. An edge alone, whose ends lie on both sides of the surface,
- * tells as much or less: errors of isopoints without a fit begin there. Of 64,000 dense
- * samples with known truth, also clustered or in cells of 1:100, it keeps 99.7 % or
- * more of the isopoints, of noisy ones after a level set 93 %; on lines of samples it
- * keeps what lies near them: 3 % on the drill holes, 4 % on the seaglider's dives. A
- * quarter leaves 56 % of the smoothed ones, and the whole edge keeps nearly everything
- * between the lines: 92 and 94 %. */
-constexpr float known_part = 0.5f;
-
-bool
-isKnown(const PointIso& point)
-{
-  return point.error <= known_part * point.edge_length;
-}
 
 /** Share of the samples next to the surface that are spikes: of 1 % of all samples it
  * is 3 %. */
@@ -54,18 +36,29 @@ warnOfSpikes(const IsosurfacePipelineParameters& parameters, Report& report)
   report.warnings.push_back(text.str());
 }
 
-/** All isopoints that there were. */
+/** Part of the isopoints: where fewer are left, a surface has become a few specks. */
+constexpr double little = 0.1;
+
+/** All isopoints that there were, or nearly all. */
 void
-warnOfNoneLeft(std::uint64_t isopoints, Report& report)
+warnOfLittleLeft(std::uint64_t isopoints, Report& report)
 {
   const std::uint64_t by_error = report.getCount("removed_by_error"),
                       bridged = report.getCount("removed_bridged");
-  if (isopoints > 0 || by_error + bridged == 0)
+  const std::uint64_t removed = by_error + bridged;
+  if (removed == 0 || static_cast<double>(isopoints) >=
+                          little * static_cast<double>(isopoints + removed))
     return;
   const std::string options = by_error == 0  ? "-drop-bridged"
                               : bridged == 0 ? "-max-error"
                                              : "-max-error and -drop-bridged";
-  const std::uint64_t removed = by_error + bridged;
+  if (isopoints > 0) {
+    report.warnings.push_back(
+        "Of " + std::to_string(isopoints + removed) + " isopoints " +
+        std::to_string(isopoints) + " are left by " + options +
+        ": of the rest of the surface the samples do not tell that well.");
+    return;
+  }
   report.warnings.push_back(
       (removed == 1
            ? "The last isopoint was left out by "
@@ -75,27 +68,12 @@ warnOfNoneLeft(std::uint64_t isopoints, Report& report)
 
 } // namespace
 
-std::string
-adviseRemedies(const IsosurfacePipelineParameters& parameters)
-{
-  std::vector<std::string> remedies;
-  if (!parameters.automatic_scale && (parameters.isosurface.scale == 1.0f).all())
-    remedies.emplace_back("-scale");
-  if (!parameters.fill_gaps)
-    remedies.emplace_back("-fill-gaps");
-  if (!parameters.drop_bridged)
-    remedies.emplace_back("-drop-bridged");
-  std::string advice;
-  for (std::size_t i = 0; i < remedies.size(); ++i)
-    advice += (i == 0 ? " " : i + 1 < remedies.size() ? ", " : " or ") + remedies[i];
-  return remedies.empty() ? "" : advice + " may help.";
-}
-
 void
 dropIsopoints(pcl::PointCloud<PointIso>& isopoints,
               IsoEdges& edges,
               IsopointChoice& choice,
               const IsosurfacePipelineParameters& parameters,
+              const KnownIsopoints& known,
               Report& report)
 {
   const auto filter = [&](const auto& keep) {
@@ -111,8 +89,12 @@ dropIsopoints(pcl::PointCloud<PointIso>& isopoints,
   if (parameters.max_error)
     drop("removed_by_error",
          [&](const PointIso& point) { return point.error <= *parameters.max_error; });
-  if (parameters.automatic_max_error)
-    drop("removed_by_error", isKnown);
+  if (parameters.automatic_max_error) {
+    const PointIso* const first = isopoints.data();
+    drop("removed_by_error", [&](const PointIso& point) {
+      return known.contain(point, edges[static_cast<std::size_t>(&point - first)]);
+    });
+  }
   if (parameters.drop_bridged)
     drop("removed_bridged", [](const PointIso& point) {
       return point.support != static_cast<std::uint8_t>(IsoSupport::Bridged);
@@ -120,41 +102,18 @@ dropIsopoints(pcl::PointCloud<PointIso>& isopoints,
 }
 
 void
-warnOfGuesses(const pcl::PointCloud<PointIso>& isopoints,
-              const IsopointChoice& choice,
+warnOfGuesses(const SurfaceGrounds& grounds,
               const IsosurfacePipelineParameters& parameters,
+              const std::optional<SamplingSummary>& sampling,
               Report& report)
 {
-  std::size_t known = 0, predicted = 0, guesses = 0, at_border = 0;
-  for (std::size_t i = 0; i < isopoints.size(); ++i) {
-    const auto support = static_cast<IsoSupport>(isopoints[i].support);
-    known += support != IsoSupport::Unknown;
-    predicted += support == IsoSupport::Predicted;
-    const bool is_rim = support == IsoSupport::Rim,
-               is_bisector = choice.orientation[i] == IsoOrientation::Bisector;
-    if (is_rim && !is_bisector && choice.method[i] == IsoMethod::Fit &&
-        isKnown(isopoints[i]))
-      ++at_border;
-    else
-      guesses += is_rim || is_bisector || support == IsoSupport::Bridged;
-  }
-  if (predicted > 0)
-    report.count("predicted", predicted);
-  const auto tell = [&](std::size_t part, const std::string& text) {
-    report.warnings.push_back(std::to_string(100 * part / known) + text);
-  };
-  if (2 * at_border > known)
-    tell(at_border,
-         " % of the isopoints lie at the border of the samples: the surface may go on "
-         "beyond it.");
-  else if (2 * (guesses + at_border) > known)
-    tell(guesses + at_border,
-         " % of the isopoints lie between lines of samples or beside gaps: where the "
-         "surface crosses a line is known, how it runs from there is a guess." +
-             std::string(parameters.validation.folds > 0
-                             ? ""
-                             : " A hold-out test tells how good it is (-validate).") +
-             adviseRemedies(parameters));
+  const std::string test = parameters.validation.folds > 0
+                               ? ""
+                               : " A hold-out test tells how good it is (-validate).";
+  const std::string warning =
+      tellGuesses(grounds, sampling, test + adviseRemedies(parameters));
+  if (!warning.empty())
+    report.warnings.push_back(warning);
 }
 
 void
@@ -163,7 +122,7 @@ warnOfLosses(const IsosurfacePipelineParameters& parameters,
              Report& report)
 {
   warnOfSpikes(parameters, report);
-  warnOfNoneLeft(isopoints, report);
+  warnOfLittleLeft(isopoints, report);
 }
 
 } // namespace pcl_uvol

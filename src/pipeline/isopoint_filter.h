@@ -2,38 +2,36 @@
 // Which isopoints a pipeline keeps, and what it says of them.
 #pragma once
 
+#include "pipeline/guessed_isopoints.h"
 #include "pipeline/isopoint_choice.h"
+#include "pipeline/known_isopoints.h"
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
-#include <string>
+#include <optional>
 
 namespace pcl_uvol {
 
 /** \brief Leave out what belongs to images, and what max_error and drop_bridged do not
- * want: counted as "removed_by_error" and "removed_bridged". */
+ * want: counted as "removed_by_error" and "removed_bridged".
+ * \param known what an automatic bound of the error keeps */
 void
 dropIsopoints(pcl::PointCloud<PointIso>& isopoints,
               IsoEdges& edges,
               IsopointChoice& choice,
               const IsosurfacePipelineParameters& parameters,
+              const KnownIsopoints& known,
               Report& report);
 
-/** \brief What may help where samples leave much open, of what was not asked for: a
- * sentence behind a space, empty if it was all. */
-std::string
-adviseRemedies(const IsosurfacePipelineParameters& parameters);
-
-/** \brief Warn where most isopoints do not rest on samples around them, and count those
- * that rest on predicted ones. */
+/** \brief Warn where most isopoints do not rest on samples around them. */
 void
-warnOfGuesses(const pcl::PointCloud<PointIso>& isopoints,
-              const IsopointChoice& choice,
+warnOfGuesses(const SurfaceGrounds& grounds,
               const IsosurfacePipelineParameters& parameters,
+              const std::optional<SamplingSummary>& sampling,
               Report& report);
 
 /** \brief Warn of samples next to the surface whose values stand alone, and where
- * max_error and drop_bridged left no isopoint, as the counts of a whole run tell.
- * \param isopoints that are left */
+ * max_error and drop_bridged left few isopoints or none, as the counts of a whole run
+ * tell. \param isopoints that are left */
 void
 warnOfLosses(const IsosurfacePipelineParameters& parameters,
              std::uint64_t isopoints,

@@ -8,6 +8,7 @@
 #include "neighbors/sampling.h"
 #include "pipeline/finish_isosurface.h"
 #include "pipeline/gap_filling.h"
+#include "pipeline/guessed_isopoints.h"
 #include "pipeline/hold_out.h"
 #include "pipeline/isopoint_choice.h"
 #include "pipeline/isopoint_filter.h"
@@ -135,25 +136,57 @@ keepIsovalues(const pcl::PointCloud<PointIso>& isopoints,
   setField(surface, "isovalue", values);
 }
 
+/** Count isopoints again whose support an extraction has counted. */
+void
+countSupports(const pcl::PointCloud<PointIso>& isopoints, Report& report)
+{
+  for (const auto& [name, support] : {std::pair("bridged", IsoSupport::Bridged),
+                                      std::pair("rim", IsoSupport::Rim),
+                                      std::pair("predicted", IsoSupport::Predicted)}) {
+    const auto is_so = [wanted = static_cast<std::uint8_t>(support)](
+                           const PointIso& point) { return point.support == wanted; };
+    const auto left = static_cast<std::uint64_t>(
+        std::count_if(isopoints.begin(), isopoints.end(), is_so));
+    if (left > 0 || report.getCount(name) > 0)
+      report.setCount(name, left);
+  }
+}
+
 /** See finishIsosurface.
+ * \param found isopoints, or a mesh
  * \param gaps of the samples; null if they were not filled */
 IsosurfaceResult
 finish(const Dataset& samples,
-       pcl::PointCloud<PointIso>&& isopoints,
-       IsoEdges&& edges,
+       SurfaceTriangles& found,
        const IsosurfacePipelineParameters& parameters,
        const detail::FilledGaps* gaps,
+       const std::optional<SamplingSummary>& sampling,
        unsigned threads,
        Report&& report)
 {
   const CloudView view = viewOf(samples.cloud);
+  pcl::PointCloud<PointIso>& isopoints = found.vertices;
+  IsoEdges& edges = found.edges;
   IsopointChoice choice =
       chooseIsopoints(view, edges, parameters, threads, isopoints, report);
   if (gaps)
     gaps->judge(parameters, threads, isopoints, edges, choice, report);
-  dropIsopoints(isopoints, edges, choice, parameters, report);
-  if (!parameters.mesh) // which tells of its caps and folds itself
-    warnOfGuesses(isopoints, choice, parameters, report);
+  const KnownIsopoints known(view,
+                             parameters.isosurface.scale,
+                             sampling,
+                             gaps ? &gaps->getSummary() : nullptr);
+  dropIsopoints(isopoints, edges, choice, parameters, known, report);
+  if (!parameters.mesh) // which has counted vertices that are not on caps
+    countSupports(isopoints, report);
+  const SurfaceGrounds examined = findGrounds(report);
+  warnOfGuesses(examined.known > 0 ? examined
+                                   : findGrounds(isopoints,
+                                                 choice,
+                                                 found.is_on_cap,
+                                                 PeriodicBox{{}, sidesOf(parameters)}),
+                parameters,
+                sampling,
+                report);
   report.setCount("isopoints", isopoints.size());
   IsosurfaceResult result;
   result.isopoints = countPerIsovalue(isopoints, parameters.isosurface.isovalues);
@@ -164,12 +197,14 @@ finish(const Dataset& samples,
     const StepTimer timer(report, "fields");
     pcl::toPCLPointCloud2(isopoints, result.surface.cloud);
     keepIsovalues(isopoints, parameters.isosurface.isovalues, result.surface, report);
-    choice.addFields(parameters.isosurface.interpolation == Interpolation::Auto,
+    choice.addFields(parameters.isosurface.interpolation == Interpolation::Auto ||
+                         parameters.normals == NormalMethod::Auto,
                      result.surface);
     warnOfReplacedFields(view.fields, result.surface.cloud.fields, report);
     interpolateFields(view, edges, result.surface.cloud, threads);
   }
   result.edges = std::move(edges);
+  result.sampling = sampling;
   result.field = parameters.isosurface.field;
   result.scale = parameters.isosurface.scale;
   result.errors = summarizeErrors(isopoints);
@@ -184,16 +219,15 @@ finishIsosurface(const Dataset& samples,
                  pcl::PointCloud<PointIso>&& isopoints,
                  IsoEdges&& edges,
                  const IsosurfacePipelineParameters& parameters,
+                 const std::optional<SamplingSummary>& sampling,
                  unsigned threads,
                  Report&& report)
 {
-  return finish(samples,
-                std::move(isopoints),
-                std::move(edges),
-                parameters,
-                nullptr,
-                threads,
-                std::move(report));
+  SurfaceTriangles found;
+  found.vertices = std::move(isopoints);
+  found.edges = std::move(edges);
+  return finish(
+      samples, found, parameters, nullptr, sampling, threads, std::move(report));
 }
 
 pcl::Indices
@@ -232,7 +266,6 @@ IsosurfacePipeline::runFilled(IsosurfacePipelineParameters parameters)
   const detail::FilledGaps gaps(
       samples_, listPoints(), parameters.isosurface, threads_, report_);
   IsosurfacePipelineParameters of_result = parameters;
-  of_result.fill_gaps = false;
   of_result.validation = {};
   const auto taken = detail::takesLattice(of_result)
                          ? std::make_shared<pcl::Indices>(listPoints())
@@ -241,7 +274,6 @@ IsosurfacePipeline::runFilled(IsosurfacePipelineParameters parameters)
   report_.merge(result.report);
   result.report = std::move(report_);
   result.gaps = gaps.getSummary();
-  result.sampling = gaps.getSampling();
   if (parameters.validation.folds > 0)
     result.validation = validate(parameters, result.report);
   report_ = result.report;
@@ -273,7 +305,7 @@ IsosurfacePipeline::run()
   IsosurfacePipelineParameters parameters = parameters_;
   parameters.isosurface = resolveParameters(&choice);
   IsosurfaceResult result;
-  if (parameters.fill_gaps)
+  if (parameters.fill_gaps && !gaps_)
     result = runFilled(parameters);
   else {
     startReport();
@@ -304,13 +336,14 @@ IsosurfacePipeline::runOnSamples(const IsosurfacePipelineParameters& parameters)
   SurfaceTriangles found = parameters.smooth
                                ? extractLevelSets(parameters.isosurface, level_sets)
                                : extract(withErrors(parameters), report_);
-  IsosurfaceResult result = finish(*samples_,
-                                   std::move(found.vertices),
-                                   std::move(found.edges),
-                                   parameters,
-                                   gaps_,
-                                   threads_,
-                                   std::move(report_));
+  if (gaps_)
+    sampling = gaps_->getSampling();
+  else if (!sampling) {
+    const StepTimer timer(report_, "sampling");
+    sampling = summarizeSampling(*extraction_.getSamples(), threads_);
+  }
+  IsosurfaceResult result = finish(
+      *samples_, found, parameters, gaps_, sampling, threads_, std::move(report_));
   warnOfLosses(parameters, result.surface.cloud.width, result.report);
   if (parameters.mesh) {
     setField(result.surface, "piece", found.piece_of);
@@ -322,11 +355,6 @@ IsosurfacePipeline::runOnSamples(const IsosurfacePipelineParameters& parameters)
     result.smallest_angle = found.smallest_angle;
   }
   result.level_sets = std::move(level_sets);
-  result.sampling = sampling;
-  if (!sampling && !gaps_) {
-    const StepTimer timer(result.report, "sampling");
-    result.sampling = summarizeSampling(*extraction_.getSamples(), threads_);
-  }
   if (parameters.validation.folds > 0)
     result.validation = validate(parameters, result.report);
   report_ = result.report;

@@ -42,6 +42,7 @@ extractMembershipSurface(const Dataset& samples,
                                  std::move(isopoints),
                                  IsoEdges(extraction.getEdges()),
                                  parameters,
+                                 std::nullopt,
                                  threads,
                                  std::move(report));
   report = std::move(result.report);

@@ -128,6 +128,7 @@ extractSnapshot(const Dataset& samples,
   how.isosurface.isovalues = {parameters.isovalue};
   how.isosurface.scale = parameters.scale;
   how.isosurface.interpolation = Interpolation::Fit; // the level set fills gaps
+  how.normals = NormalMethod::Fit;
   pcl::PointCloud<PointIso> isopoints;
   IsoEdges edges;
   Report report;
@@ -143,6 +144,7 @@ extractSnapshot(const Dataset& samples,
                           std::move(isopoints),
                           std::move(edges),
                           how,
+                          std::nullopt,
                           threads,
                           std::move(report))
       .surface;

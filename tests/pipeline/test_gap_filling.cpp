@@ -107,6 +107,41 @@ TEST(GapFilling, IsAdvisedAsOtherOptionsThatWereNotGiven)
   EXPECT_EQ(findGuesses(parameters).find("-drop-bridged"), std::string::npos);
 }
 
+/** Half a gap is what nobody can tell more of; on a profile the samples are near. */
+TEST(GapFilling, KeepsWhatIsKnownOnProfilesAndBetweenThem)
+{
+  IsosurfacePipelineParameters parameters = makeParameters(true);
+  const auto samples = makeProfiles(40);
+  const IsosurfaceResult all = uvol_test::runPipeline(samples, parameters);
+  parameters.automatic_max_error = true;
+  const IsosurfaceResult known = uvol_test::runPipeline(samples, parameters);
+  const auto count = [&](const IsosurfaceResult& result, bool predicted) {
+    const auto points = uvol_test::toIsopoints(result);
+    return std::count_if(points.begin(), points.end(), [&](const PointIso& point) {
+      return isPredicted(point) == predicted &&
+             (!predicted ||
+              point.error <= 2.0f * static_cast<float>(result.gaps->spacing));
+    });
+  };
+  EXPECT_GE(count(all, false), 40);
+  EXPECT_EQ(count(all, false), count(known, false));
+  EXPECT_GT(count(all, true), 0);
+  EXPECT_EQ(count(all, true), count(known, true));
+  EXPECT_EQ(static_cast<std::size_t>(count(known, true)),
+            known.report.getCount("predicted"));
+}
+
+TEST(GapFilling, LinearIsopointsHaveErrorsAndSupport)
+{
+  IsosurfacePipelineParameters parameters = makeParameters(true);
+  parameters.isosurface.interpolation = Interpolation::Linear;
+  for (const PointIso& point :
+       uvol_test::toIsopoints(uvol_test::runPipeline(makeProfiles(20), parameters))) {
+    EXPECT_FALSE(std::isnan(point.error));
+    EXPECT_NE(static_cast<std::uint8_t>(IsoSupport::Unknown), point.support);
+  }
+}
+
 /** What is said where no gap was filled: in the report's warnings, and as a fact. */
 std::pair<std::string, std::string>
 tellUnfilled(const std::shared_ptr<Dataset>& samples)

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <pcl/conversions.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <vector>
@@ -115,7 +116,7 @@ findGuesses(const IsosurfaceResult& result)
   return found;
 }
 
-/** Isopoints at the border of the samples that lie on good fits, by the fields. */
+/** Isopoints on rims, and in gaps those that lie on good fits, by the fields. */
 std::size_t
 countAtBorder(const IsosurfaceResult& result)
 {
@@ -125,9 +126,10 @@ countAtBorder(const IsosurfaceResult& result)
   const auto isopoints = uvol_test::toIsopoints(result);
   std::size_t count = 0;
   for (std::size_t i = 0; i < isopoints.size(); ++i)
-    count += isopoints[i].support == 3 && method.read(view.point(i)) == 2.0 &&
-             orientation.read(view.point(i)) != 3.0 &&
-             isopoints[i].error <= 0.5f * isopoints[i].edge_length;
+    count += isopoints[i].support == 3 ||
+             (isopoints[i].support == 2 && method.read(view.point(i)) == 2.0 &&
+              orientation.read(view.point(i)) != 4.0 &&
+              isopoints[i].error <= 0.5f * isopoints[i].edge_length);
   return count;
 }
 
@@ -147,6 +149,81 @@ TEST(IsopointChoice, BordersOfSamplesAreNoGapsBetweenLines)
       << lines;
   EXPECT_EQ(std::string::npos, lines.find("border")) << lines;
   EXPECT_EQ("", findGuesses(extractAt(makeSphere(20000), 0.0)));
+}
+
+/** Linear isopoints and vertices of meshes rest on no more, and of the former a share
+ * is looked at. */
+TEST(IsopointChoice, AllSurfacesOnLinesOfSamplesAreTold)
+{
+  const std::string told = "lie between lines of samples or beside gaps";
+  IsosurfacePipelineParameters parameters = makeParameters(Interpolation::Linear);
+  const IsosurfaceResult linear = uvol_test::runPipeline(makeProfiles(20), parameters);
+  EXPECT_NE(std::string::npos, findGuesses(linear).find(told)) << findGuesses(linear);
+  EXPECT_EQ(std::min<std::size_t>(1024, linear.surface.cloud.width),
+            linear.report.getCount("examined"));
+  for (const PointIso& point : uvol_test::toIsopoints(linear))
+    EXPECT_EQ(0, point.support);
+  EXPECT_EQ("", findGuesses(uvol_test::runPipeline(makeSphere(20000), parameters)));
+
+  parameters = makeParameters(Interpolation::Auto);
+  parameters.mesh.emplace();
+  const IsosurfaceResult mesh = uvol_test::runPipeline(makeProfiles(20), parameters);
+  EXPECT_NE(std::string::npos, findGuesses(mesh).find(told)) << findGuesses(mesh);
+  EXPECT_EQ("", findGuesses(uvol_test::runPipeline(makeSphere(20000), parameters)));
+  // Caps, of which most vertices are, rest on nothing.
+  parameters.isosurface.isovalues = {0.6 - 1.25};
+  EXPECT_EQ("", findGuesses(uvol_test::runPipeline(makeSphere(20000), parameters)));
+}
+
+/** There is no line in a slab two spacings thick, nor in a lattice of 3 by 3 by 3. */
+TEST(IsopointChoice, FewSamplesAllAroundHaveABorder)
+{
+  uvol_test::Random random(1);
+  pcl::PointCloud<pcl::PointXYZI> slab, lattice;
+  for (int i = 0; i < 4000; ++i) {
+    pcl::PointXYZI point;
+    point.x = static_cast<float>(20.0 * random.uniform());
+    point.y = static_cast<float>(20.0 * random.uniform());
+    point.z = static_cast<float>(random.uniform());
+    point.intensity = point.x + 0.3f * point.z - 10.0f;
+    slab.push_back(point);
+  }
+  for (int i = 0; i < 27; ++i) {
+    pcl::PointXYZI point;
+    point.x = static_cast<float>(i % 3);
+    point.y = static_cast<float>(i / 3 % 3);
+    point.z = static_cast<float>(i / 9);
+    point.intensity = point.x + 0.4f * point.y - 1.3f + 0.1f * point.z * point.z;
+    lattice.push_back(point);
+  }
+  for (const auto* const cloud : {&slab, &lattice}) {
+    const auto samples = std::make_shared<Dataset>();
+    pcl::toPCLPointCloud2(*cloud, samples->cloud);
+    const std::string told = findGuesses(extractAt(samples, 0.0));
+    EXPECT_NE(std::string::npos, told.find("lie at the border of the samples")) << told;
+  }
+}
+
+TEST(IsopointChoice, TellsItselfUnlessBothAreChosenForAll)
+{
+  const auto samples = makeProfiles(20);
+  for (const Interpolation interpolation :
+       {Interpolation::Auto, Interpolation::Fit, Interpolation::Linear}) {
+    const IsosurfaceResult result =
+        uvol_test::runPipeline(samples, makeParameters(interpolation));
+    const CloudView view = viewOf(result.surface.cloud);
+    const ScalarField method(view.fields, "method"),
+        orientation(view.fields, "orientation");
+    for (std::size_t i = 0; i < view.count; ++i) {
+      const bool is_linear = interpolation == Interpolation::Linear;
+      EXPECT_TRUE(!is_linear || method.read(view.point(i)) == 1.0);
+      EXPECT_TRUE(!is_linear || orientation.read(view.point(i)) == 3.0);
+    }
+  }
+  IsosurfacePipelineParameters parameters = makeParameters(Interpolation::Linear);
+  parameters.normals = NormalMethod::Edge;
+  const IsosurfaceResult same = uvol_test::runPipeline(samples, parameters);
+  EXPECT_EQ(nullptr, findField(same.surface.cloud.fields, "method"));
 }
 
 TEST(IsopointChoice, LeavesDenseSurfacesOnTheirFits)
@@ -197,7 +274,6 @@ TEST(IsopointChoice, IsToldAfterLevelSetsAndInMeshes)
     auto fitted = parameters;
     fitted.isosurface.interpolation = Interpolation::Fit;
     const auto same = uvol_test::runPipeline(makeProfiles(60), fitted);
-    EXPECT_EQ(nullptr, findField(same.surface.cloud.fields, "method"));
     const auto points = uvol_test::toIsopoints(result),
                others = uvol_test::toIsopoints(same);
     ASSERT_EQ(points.size(), others.size());

@@ -206,6 +206,39 @@ TEST(IsosurfacePipeline, LeavesOutWhatIsNotWanted)
     EXPECT_NE(2.0f, support);
 }
 
+TEST(IsosurfacePipeline, CountsTheSupportOfWhatIsLeft)
+{
+  IsosurfacePipelineParameters parameters = makeParameters();
+  parameters.automatic_max_error = parameters.drop_bridged = true;
+  const IsosurfaceResult left = uvol_test::runPipeline(makeSamples(), parameters);
+  const std::vector<float> supports = readColumn(left.surface, "support");
+  EXPECT_EQ(0u, left.report.getCount("bridged"));
+  EXPECT_EQ(
+      static_cast<std::uint64_t>(std::count(supports.begin(), supports.end(), 3.0f)),
+      left.report.getCount("rim"));
+}
+
+TEST(IsosurfacePipeline, SaysWhereLittleIsLeft)
+{
+  IsosurfacePipelineParameters parameters = makeParameters();
+  const auto samples = makeSamples();
+  const IsosurfaceResult all = uvol_test::runPipeline(samples, parameters);
+  std::vector<float> errors = readColumn(all.surface, "error");
+  std::sort(errors.begin(), errors.end());
+  const auto findWarnings = [&](double share) {
+    parameters.max_error =
+        errors[static_cast<std::size_t>(share * static_cast<double>(errors.size()))];
+    std::string found;
+    for (const std::string& warning :
+         uvol_test::runPipeline(samples, parameters).report.warnings)
+      found +=
+          warning.find("are left by -max-error") == std::string::npos ? "" : warning;
+    return found;
+  };
+  EXPECT_NE("", findWarnings(0.05));
+  EXPECT_EQ("", findWarnings(0.2));
+}
+
 TEST(IsosurfacePipeline, SmoothsAsTheLevelSetAlone)
 {
   const auto samples = makeSamples();

@@ -142,6 +142,24 @@ TEST_F(LevelSetTool, SmoothIsosurfacesAreNearerToTheTruth)
   EXPECT_EQ(2, runCommand(extract + path("two.ply") + field + "-mu 0.1").exit_code);
 }
 
+TEST_F(LevelSetTool, SaysThatSamplesLieOnLines)
+{
+  const std::string told = "lie between lines of samples or beside gaps";
+  EXPECT_EQ(std::string::npos, run("-iso 0 -steps 1").err.find(told));
+  uvol_test::TemporaryFolder own;
+  ASSERT_EQ(0,
+            runCommand("uvol_generate " + own / "in.pcd" +
+                       " -field torus -n 5000 -samples holes")
+                .exit_code);
+  const std::string command = "uvol_levelset " + own / "in.pcd" + " " +
+                              own / "out.ply" + " -field torus -iso 0 -steps 1";
+  for (const char* const axes : {"", " -scale 1,1,1 -rotate 30,40,10"}) {
+    const CommandResult result = runCommand(command + axes);
+    EXPECT_EQ(0, result.exit_code);
+    EXPECT_NE(std::string::npos, result.err.find(told)) << result.err;
+  }
+}
+
 TEST_F(LevelSetTool, SaysThatItEndedTooEarly)
 {
   const auto result = run("-iso 0 -steps 2");

@@ -77,12 +77,13 @@ printRow(const std::string& name, const T& value, const char* unit, bool in_colo
 }
 
 /** Whether a count is for those who ask for everything: bytes, and by which fit or for
- * which reason isopoints lie where they do. */
+ * which reason isopoints lie where they do, and what a warning goes by. */
 bool
 isDetail(const std::string& count)
 {
   return count.find("bytes") != std::string::npos ||
-         count.find("_roots") != std::string::npos || count.rfind("linear_", 0) == 0;
+         count.find("_roots") != std::string::npos || count.rfind("linear_", 0) == 0 ||
+         count.rfind("examined", 0) == 0;
 }
 
 /** A line of what was counted at all. */

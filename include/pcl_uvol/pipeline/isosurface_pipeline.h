@@ -144,7 +144,9 @@ struct PCL_UVOL_EXPORTS IsosurfacePipelineParameters {
    * of length. None: no bound. */
   std::optional<double> max_error;
   /** Take the bound of the error from the samples instead: half the distance of the two
-   * samples that an isopoint lies between, its `edge_length`. */
+   * samples that an isopoint lies between, its `edge_length`. Crossings with lines or
+   * sheets of samples stay, whose edges are short beside the gaps; between predicted
+   * samples the bound is half a gap, in the stretched space. */
   bool automatic_max_error = false;
   /** Leave out isopoints in gaps of the sampling, see IsoSupport::Bridged. */
   bool drop_bridged = false;
@@ -285,11 +287,11 @@ class FilledGaps;
 struct PCL_UVOL_EXPORTS IsosurfaceResult {
   /** The isopoints: the fields of PointIso, then all fields of the samples that these
    * do not replace. `isovalue` is float64, behind these, where float holds one of the
-   * isovalues as infinite or as zero. With Interpolation::Auto also `method` and
-   * `orientation`, numbers of IsoMethod and IsoOrientation; after a level set and in a
-   * mesh it takes a fit wherever there is one. With a mesh its vertices, and behind the
-   * other fields `piece`, among pieces, and `cap`, 1 where a vertex closes the samples'
-   * box. */
+   * isovalues as infinite or as zero. With Interpolation::Auto or NormalMethod::Auto
+   * also `method` and `orientation`, numbers of IsoMethod and IsoOrientation; after a
+   * level set and in a mesh it takes a fit wherever there is one. With a mesh its
+   * vertices, and behind the other fields `piece`, among pieces, and `cap`, 1 where a
+   * vertex closes the samples' box. */
   Dataset surface;
   std::vector<Triangle> triangles; ///< with a mesh: counter-clockwise seen from outside
   std::vector<SurfacePiece> pieces; ///< with a mesh: see SurfaceTriangles
@@ -312,7 +314,7 @@ struct PCL_UVOL_EXPORTS IsosurfaceResult {
   std::vector<ValidationScore> validation; ///< one per isovalue, if asked for
   /** Counts, times and warnings of IsosurfaceExtraction or SurfaceMesh,
    * LevelSetEvolution and SurfaceNormalEstimation, and "removed_by_error" and
-   * "removed_bridged". */
+   * "removed_bridged"; "bridged", "rim" and "predicted" count what is left. */
   Report report;
 };
 

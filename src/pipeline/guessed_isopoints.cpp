@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/guessed_isopoints.h"
+
+#include "pipeline/known_isopoints.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace pcl_uvol {
+
+namespace {
+
+void
+add(const PointIso& point,
+    IsoMethod method,
+    IsoOrientation orientation,
+    SurfaceGrounds& grounds)
+{
+  const auto support = static_cast<IsoSupport>(point.support);
+  const bool is_bisector = orientation == IsoOrientation::Bisector;
+  ++grounds.known;
+  const bool has_good_fit = method == IsoMethod::Fit && !is_bisector && isKnown(point);
+  if (support == IsoSupport::Rim)
+    ++(has_good_fit ? grounds.at_border : grounds.beside_gaps);
+  else if (support == IsoSupport::Bridged && has_good_fit)
+    ++grounds.beside_gaps;
+  else
+    grounds.guessed += is_bisector || support == IsoSupport::Bridged;
+}
+
+std::string
+tellPart(std::size_t part, std::size_t all, const std::string& text)
+{
+  return std::to_string(100 * part / all) + " % of the isopoints lie " + text;
+}
+
+} // namespace
+
+SurfaceGrounds
+findGrounds(const pcl::PointCloud<PointIso>& isopoints,
+            const IsopointChoice& choice,
+            const std::vector<std::uint8_t>& is_on_cap,
+            const PeriodicBox& box)
+{
+  SurfaceGrounds grounds;
+  for (std::size_t i = 0; i < isopoints.size(); ++i) {
+    const PointIso& point = isopoints[i];
+    const bool is_cap = !is_on_cap.empty() && is_on_cap[i] != 0;
+    if (!is_cap && point.support != static_cast<std::uint8_t>(IsoSupport::Unknown) &&
+        (!isPeriodic(box.sides) || box.holds(point.data)))
+      add(point, choice.method[i], choice.orientation[i], grounds);
+  }
+  return grounds;
+}
+
+SurfaceGrounds
+findGrounds(const Report& linear_extraction)
+{
+  SurfaceGrounds grounds;
+  grounds.known = linear_extraction.getCount("examined");
+  grounds.beside_gaps = linear_extraction.getCount("examined_rim");
+  grounds.guessed = linear_extraction.getCount("examined_bridged");
+  return grounds;
+}
+
+std::string
+tellGuesses(const SurfaceGrounds& grounds,
+            const std::optional<SamplingSummary>& sampling,
+            const std::string& advice)
+{
+  const bool lie_all_around = sampling && sampling->most == LocalDimension::Volume;
+  const std::size_t at_border =
+                        grounds.at_border + (lie_all_around ? grounds.beside_gaps : 0),
+                    all = grounds.at_border + grounds.beside_gaps + grounds.guessed;
+  if (2 * at_border > grounds.known)
+    return tellPart(at_border,
+                    grounds.known,
+                    "at the border of the samples: the surface may go on beyond it.");
+  if (2 * all <= grounds.known)
+    return "";
+  if (lie_all_around && at_border > grounds.guessed)
+    return tellPart(all,
+                    grounds.known,
+                    "at the border of the samples or in gaps: the surface may go on "
+                    "beyond it.");
+  return tellPart(
+      all,
+      grounds.known,
+      "between lines of samples or beside gaps: where the surface crosses a line is "
+      "known, how it runs from there is a guess." +
+          advice);
+}
+
+std::string
+adviseRemedies(const IsosurfacePipelineParameters& parameters)
+{
+  std::vector<std::string> remedies;
+  if (!parameters.automatic_scale && (parameters.isosurface.scale == 1.0f).all())
+    remedies.emplace_back("-scale");
+  if (!parameters.fill_gaps)
+    remedies.emplace_back("-fill-gaps");
+  if (!parameters.drop_bridged)
+    remedies.emplace_back("-drop-bridged");
+  std::string advice;
+  for (std::size_t i = 0; i < remedies.size(); ++i)
+    advice += (i == 0 ? " " : i + 1 < remedies.size() ? ", " : " or ") + remedies[i];
+  return remedies.empty() ? "" : advice + " may help.";
+}
+
+} // namespace pcl_uvol

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What most of a surface rests on: samples around it, their border, or a guess between
+// lines of samples.
+#pragma once
+
+#include "neighbors/periodic_box.h"
+#include "pipeline/isopoint_choice.h"
+#include <pcl_uvol/common/export.h>
+#include <pcl_uvol/neighbors/neighbor_graph.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pcl_uvol {
+
+/** \brief How many isopoints rest on what, of those whose support is known. */
+struct SurfaceGrounds {
+  std::size_t known = 0;
+  std::size_t at_border = 0; ///< on a rim, on good fits: no line of samples is there
+  /** On other rims, or in gaps that good fits bridge: where samples lie all around, at
+   * their border. */
+  std::size_t beside_gaps = 0;
+  std::size_t guessed = 0; ///< bridged otherwise, or oriented across a line of samples
+};
+
+/** \brief What isopoints rest on.
+ * \param is_on_cap 1 for each vertex that closes a mesh, which rests on nothing; empty:
+ * there are none
+ * \param box outside of which isopoints are images of others */
+SurfaceGrounds
+findGrounds(const pcl::PointCloud<PointIso>& isopoints,
+            const IsopointChoice& choice,
+            const std::vector<std::uint8_t>& is_on_cap,
+            const PeriodicBox& box);
+
+/** \brief What those rest on that a linear extraction looked at, see "examined" among
+ * its counts. */
+PCL_UVOL_EXPORTS SurfaceGrounds
+findGrounds(const Report& linear_extraction);
+
+/** \brief A sentence where most isopoints do not rest on samples around them; else
+ * empty.
+ * \param sampling where samples lie all around, rims are the border of these
+ * \param advice a sentence behind a space, where the surface is a guess */
+PCL_UVOL_EXPORTS std::string
+tellGuesses(const SurfaceGrounds& grounds,
+            const std::optional<SamplingSummary>& sampling,
+            const std::string& advice);
+
+/** \brief What may help where samples leave much open, of what was not asked for: a
+ * sentence behind a space, empty if it was all. */
+std::string
+adviseRemedies(const IsosurfacePipelineParameters& parameters);
+
+} // namespace pcl_uvol

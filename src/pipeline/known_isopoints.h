@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Isopoints whose place the samples tell better than that they lie on both sides of it:
+// what an automatic bound of the error keeps.
+#pragma once
+
+#include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/point_types.h>
+#include <pcl_uvol/isosurface/isosurface_extraction.h>
+#include <pcl_uvol/neighbors/neighbor_graph.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline.h>
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <optional>
+
+namespace pcl_uvol {
+
+/** \brief Whether the error of an isopoint is at most half of its edge, whose ends tell
+ * no more. */
+bool
+isKnown(const PointIso& point);
+
+/** \brief Tells which isopoints are known.
+ *
+ * Besides those that isKnown() tells of, where samples lie on lines or sheets the
+ * crossings between neighbours of one of these: their edges are short beside the gaps,
+ * and the surface does cross there. Predicted isopoints have no edge between measured
+ * samples: their error must be at most half of the gap, in the stretched space. */
+class KnownIsopoints {
+public:
+  /** \param samples between which the edges lie, which must outlive this
+   * \param gaps null, if they were not filled */
+  KnownIsopoints(const CloudView& samples,
+                 const Eigen::Array3f& scale,
+                 const std::optional<SamplingSummary>& sampling,
+                 const GapFilling* gaps);
+
+  bool
+  contain(const PointIso& point, const IsoEdge& edge) const;
+
+private:
+  const CloudView& samples_;
+  Eigen::Array3f scale_;
+  float half_gap_ = 0.0f; ///< in the stretched space; 0: there are no gaps
+  float longest_ = 0.0f;  ///< edge in a line or a sheet
+};
+
+} // namespace pcl_uvol
