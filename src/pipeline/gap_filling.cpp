@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/gap_filling.h"
 
+#include "common/median.h"
 #include "common/number_range.h"
 #include "common/parallel.h"
 #include "common/printable.h"
@@ -38,6 +39,9 @@ constexpr std::size_t kriged_samples = 16;
 /** Predicted samples to the width of a gap: with 2, a hold-out test tells more of the
  * samples left out wrongly (tests/benchmarks), since gaps are narrower in places. */
 constexpr double samples_per_gap = 4.0;
+
+/** Spacings of predicted samples: edges that are longer reach across a gap. */
+constexpr double half_gap = 0.5 * samples_per_gap;
 
 /** Share of the spacing of the lattice: its nodes are moved so far along each axis, at
  * most, since edges slip between samples on a lattice. */
@@ -236,6 +240,15 @@ findExtent(const CloudView& cloud, const Eigen::Array3f& scale)
   return box.sizes().cast<double>().array() * scale.cast<double>();
 }
 
+/** The length of an edge in the stretched space. */
+double
+lengthOf(const CloudView& cloud, const IsoEdge& edge, const Eigen::Array3f& scale)
+{
+  const Eigen::Map<const Eigen::Array3f> a(cloud.xyz(edge.first)),
+      b(cloud.xyz(edge.second));
+  return ((b - a) * scale).matrix().cast<double>().norm();
+}
+
 void
 checkField(const Dataset& samples, const std::string& field)
 {
@@ -332,6 +345,7 @@ FilledGaps::FilledGaps(const std::shared_ptr<const Dataset>& samples,
   measured_ = extraction.getSamples();
   sampling_ = summarizeSampling(*measured_, threads);
   findSpacing(roots, extraction.getEdges(), parameters, threads, report.progress);
+  measureErrors(parameters, extraction);
   filled_ = samples;
   if (summary_.spacing > 0.0) {
     hull_ = std::make_unique<SampleHull>(
@@ -343,6 +357,23 @@ FilledGaps::FilledGaps(const std::shared_ptr<const Dataset>& samples,
     report.warnings.push_back(
         "There are gaps between the samples, and none was filled: " +
         summary_.unfilled + ".");
+}
+
+void
+FilledGaps::measureErrors(const IsosurfaceParameters& parameters,
+                          IsosurfaceExtraction<pcl::PCLPointCloud2>& extraction)
+{
+  extraction.setInterpolation(Interpolation::Fit);
+  pcl::PointCloud<PointIso> fits;
+  extraction.extract(fits);
+  const IsoEdges& edges = extraction.getEdges();
+  std::vector<float> errors;
+  for (std::size_t i = 0; i < fits.size(); ++i)
+    if (lengthOf(viewOf(samples_->cloud), edges[i], parameters.scale) >
+        half_gap * summary_.spacing)
+      errors.push_back(fits[i].error);
+  if (!errors.empty())
+    measured_error_ = computeMedian(errors);
 }
 
 void
@@ -459,9 +490,7 @@ FilledGaps::findSpacing(const pcl::PointCloud<PointIso>& roots,
     if (thin[i] == 0 && support[i] == FieldSupport::Measured)
       continue;
     ++in_gaps;
-    const Eigen::Map<const Eigen::Array3f> a(cloud.xyz(edges[i].first)),
-        b(cloud.xyz(edges[i].second));
-    const double length = ((b - a) * parameters.scale).matrix().cast<double>().norm();
+    const double length = lengthOf(cloud, edges[i], parameters.scale);
     if (length > crossing_edge * static_cast<double>(sampling_.along))
       lengths.push_back(length);
   }

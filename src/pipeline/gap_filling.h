@@ -21,6 +21,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -137,6 +138,12 @@ private:
                   unsigned threads,
                   const ProgressCallback& progress);
 
+  /** Find what fits tell of the surface across gaps, without predicted samples.
+   * \param extraction of the measured ones */
+  void
+  measureErrors(const IsosurfaceParameters& parameters,
+                IsosurfaceExtraction<pcl::PCLPointCloud2>& extraction);
+
   void
   takeVariogram();
 
@@ -170,6 +177,8 @@ private:
   std::vector<LatticeEdge> lattice_edges_;
   double reach_ = 0.0; ///< from the nearest measured sample
   bool has_gaps_ = false;
+  /** Median of the errors of fits to measured samples across gaps; infinite of none. */
+  float measured_error_ = std::numeric_limits<float>::infinity();
   GapFilling summary_;
 };
 

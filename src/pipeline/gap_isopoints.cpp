@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 #include <utility>
 
 namespace pcl_uvol::detail {
@@ -30,6 +31,12 @@ constexpr double farthest_in_gap = 1.0, farthest_on_line = 0.5;
 
 /** Share of the variance: where less is explained, most of a value is chance. */
 constexpr float least_confidence = 0.5f;
+
+/** Median of the errors between predicted samples over that of fits across gaps: beyond
+ * it fits make the better surface. It is 25 to 180 on stretched cells of CFD, which
+ * look like lines, 170 on casts of a smooth field, where deviations are 80 times as
+ * large; up to 8 where waves are as long as gaps are wide. */
+constexpr float much_worse = 16.0f;
 
 /** A place, and those to both sides along the axes. */
 constexpr std::size_t star = 7;
@@ -83,6 +90,29 @@ tellWhyNone(const FoundInGaps& found)
          std::to_string(found.unexplained) + ", and " +
          std::to_string(found.all - found.unexplained) +
          " lie off the surface that it predicts.";
+}
+
+/** Says so where fits to the measured samples tell much more than kriging does.
+ * \param measured median of their errors across gaps; infinite if there are none */
+void
+warnOfWorse(const pcl::PointCloud<PointIso>& isopoints, float measured, Report& report)
+{
+  std::vector<float> errors;
+  for (const PointIso& point : isopoints)
+    if (point.support == static_cast<std::uint8_t>(IsoSupport::Predicted))
+      errors.push_back(point.error);
+  if (errors.empty())
+    return;
+  const float median = computeMedian(errors);
+  if (!(median > much_worse * measured))
+    return;
+  std::ostringstream text;
+  text.precision(3);
+  text << "The surface is worse where gaps are filled: half of the errors between "
+          "predicted samples are above "
+       << median << ", between measured ones across a gap above " << measured
+       << ". Leave out -fill-gaps.";
+  report.warnings.push_back(text.str());
 }
 
 /** Says so where the samples explain less than half of the variance at most isopoints
@@ -256,6 +286,7 @@ FilledGaps::judge(const IsosurfacePipelineParameters& parameters,
   };
   choice.filter(isopoints, keep);
   report.count("off_prediction", filterIsopoints(isopoints, edges, keep));
+  warnOfWorse(isopoints, measured_error_, report);
   warnOfDoubt(isopoints, choice.confidence, found, report);
 }
 

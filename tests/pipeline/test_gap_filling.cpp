@@ -107,6 +107,39 @@ TEST(GapFilling, IsAdvisedAsOtherOptionsThatWereNotGiven)
   EXPECT_EQ(findGuesses(parameters).find("-drop-bridged"), std::string::npos);
 }
 
+std::string
+findWarning(const IsosurfaceResult& result, const std::string& part)
+{
+  for (const std::string& warning : result.report.warnings)
+    if (warning.find(part) != std::string::npos)
+      return warning;
+  return "";
+}
+
+/** Layers are not lines with gaps between, and fits to them know a plane. */
+TEST(GapFilling, SaysWhereItMakesTheSurfaceWorse)
+{
+  const std::string worse = "The surface is worse where gaps are filled";
+  EXPECT_EQ("",
+            findWarning(uvol_test::runPipeline(makeProfiles(40), makeParameters(true)),
+                        worse));
+  uvol_test::Random random(4);
+  pcl::PointCloud<pcl::PointXYZI> cells;
+  for (int i = 0; i < 12 * 12 * 60; ++i) {
+    pcl::PointXYZI point;
+    point.x = static_cast<float>(i % 12 + 0.3 * random.uniform());
+    point.y = static_cast<float>(i / 12 % 12 + 0.3 * random.uniform());
+    point.z = 0.02f * static_cast<float>(i / 144 + 0.3 * random.uniform());
+    point.intensity = point.x + 0.2f * point.y - 5.0f + point.z;
+    cells.push_back(point);
+  }
+  const auto samples = std::make_shared<Dataset>();
+  pcl::toPCLPointCloud2(cells, samples->cloud);
+  const std::string warning =
+      findWarning(uvol_test::runPipeline(samples, makeParameters(true)), worse);
+  EXPECT_NE(std::string::npos, warning.find("Leave out -fill-gaps.")) << warning;
+}
+
 /** Half a gap is what nobody can tell more of; on a profile the samples are near. */
 TEST(GapFilling, KeepsWhatIsKnownOnProfilesAndBetweenThem)
 {
