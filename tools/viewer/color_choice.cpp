@@ -5,10 +5,6 @@
 #include "common/scalar_field.h"
 #include "render/point_colors.h"
 
-#include <vtkLookupTable.h>
-#include <vtkNew.h>
-#include <vtkScalarBarActor.h>
-
 #include <algorithm>
 #include <string>
 
@@ -22,7 +18,7 @@ isScalar(const std::string& color)
   return !color.empty() && color != "rgb" && color != "rgba";
 }
 
-/** The colours of a bar. */
+/** The colours of a mesh. */
 void
 fill(vtkLookupTable& table,
      const pcl_uvol::ColorMapping& mapping,
@@ -35,17 +31,18 @@ fill(vtkLookupTable& table,
   if (!categories.empty()) {
     const auto count = static_cast<vtkIdType>(categories.size());
     table.SetNumberOfTableValues(count);
+    table.ResetAnnotations();
     table.IndexedLookupOn();
     for (vtkIdType i = 0; i < count; ++i) {
-      // The first one is on top there, and the lowest one below in pictures.
-      const pcl_uvol::CategoryColor& category =
-          categories[static_cast<std::size_t>(count - 1 - i)];
+      const pcl_uvol::CategoryColor& category = categories[static_cast<std::size_t>(i)];
       table.SetAnnotation(category.value, describeCategory(category));
       set(i, category.color);
     }
     return;
   }
   constexpr int steps = 256;
+  table.ResetAnnotations();
+  table.IndexedLookupOff();
   table.SetNumberOfTableValues(steps);
   for (int i = 0; i < steps; ++i)
     set(i, mapping.map.at(i / (steps - 1.0)));
@@ -108,13 +105,11 @@ ColorChoice::hasScale() const
 
 void
 ColorChoice::apply(const pcl::PCLPointCloud2& cloud,
-                   pcl_uvol::ImageSpaceRendererBase& renderer,
-                   vtkScalarBarActor& bar)
+                   pcl_uvol::ImageSpaceRendererBase& renderer)
 {
   fields_[0] = look_.colorField(pcl_uvol::viewOf(cloud));
   const std::string& field = getField();
   renderer.setColorField("");
-  bar.VisibilityOff();
   legend_ = Legend();
   if (isScalar(field)) {
     const pcl_uvol::CloudView view = pcl_uvol::viewOf(cloud);
@@ -125,17 +120,10 @@ ColorChoice::apply(const pcl::PCLPointCloud2& cloud,
     renderer.setColorMap(mapping.map);
     renderer.setLogarithmicColors(mapping.is_logarithmic);
     renderer.setColorRange(scale.low, scale.high);
-    legend_ = {mapping, scale, {}};
+    legend_ = {mapping, scale, {}, true};
     legend_.categories =
         listNamedCategories(view, look_.getLabels(), field, mapping.map);
-    vtkNew<vtkLookupTable> table;
-    fill(*table, mapping, scale, legend_.categories);
-    bar.SetLookupTable(table);
-    const int digits = std::max(3, countDigits(scale.low, scale.high));
-    bar.SetLabelFormat(("%." + std::to_string(digits) + "g").c_str());
-    bar.SetTitle(look_.getColors().getLabel(field).c_str());
-    const bool has_range = scale.low < scale.high || !legend_.categories.empty();
-    bar.SetVisibility(look_.hasBar() && has_range);
+    fill(*table_, mapping, scale, legend_.categories);
   }
   renderer.setColorField(field);
 }
@@ -153,7 +141,7 @@ ColorChoice::colorPoints(const pcl::PCLPointCloud2& cloud) const
 bool
 ColorChoice::hasLegend() const
 {
-  return hasScale() && look_.hasBar();
+  return legend_.is_known && look_.hasBar();
 }
 
 void

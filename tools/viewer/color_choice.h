@@ -5,11 +5,11 @@
 #include "shared/render_options.h"
 
 #include <pcl/PCLPointCloud2.h>
+#include <vtkLookupTable.h>
+#include <vtkNew.h>
 
 #include <string>
 #include <vector>
-
-class vtkScalarBarActor;
 
 namespace uvol_tools {
 
@@ -27,21 +27,25 @@ public:
     return fields_[chosen_];
   }
 
-  /** \brief Whether numbers of a field have colours, which the bar's table holds. */
+  /** \brief Whether numbers of a field have colours, which the table holds. */
   bool
   hasScale() const;
+
+  vtkLookupTable&
+  getTable()
+  {
+    return *table_;
+  }
 
   /** \brief Choose the next field, one colour among them, and start over at the end. */
   void
   next();
 
-  /** \brief Colour a renderer's surface, and show the colours in a bar.
+  /** \brief Colour a renderer's surface.
    * \throws InvalidArgument for a field without a number; the surface then has one
    * colour */
   void
-  apply(const pcl::PCLPointCloud2& cloud,
-        pcl_uvol::ImageSpaceRendererBase& renderer,
-        vtkScalarBarActor& bar);
+  apply(const pcl::PCLPointCloud2& cloud, pcl_uvol::ImageSpaceRendererBase& renderer);
 
   /** \brief Give another renderer the colours of the last apply(). */
   void
@@ -51,7 +55,7 @@ public:
   std::vector<pcl_uvol::Rgba>
   colorPoints(const pcl::PCLPointCloud2& cloud) const;
 
-  /** \brief Whether pictures have a bar. */
+  /** \brief Whether window and pictures have a bar. */
   bool
   hasLegend() const;
 
@@ -65,12 +69,14 @@ private:
     pcl_uvol::ColorMapping mapping;
     pcl_uvol::ColorScale scale;
     std::vector<pcl_uvol::CategoryColor> categories;
+    bool is_known = false;
   };
 
   const RenderOptions& look_;
   std::vector<std::string> fields_; // that of the options first, and again by its name
   std::size_t chosen_ = 0;
   Legend legend_;
+  vtkNew<vtkLookupTable> table_;
 };
 
 } // namespace uvol_tools

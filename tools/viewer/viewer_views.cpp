@@ -45,25 +45,31 @@ angleOfHigher(double degrees, double growth)
 PictureCell
 ViewerWindow::findFreePart() const
 {
-  constexpr double beside_bar = 0.82, above_slider = 0.78; // parts of the sides
+  constexpr double above_slider = 0.78; // part of the height
   const int* const size = window_->GetSize();
   int width = size[0], height = size[1];
-  if (bar_->GetVisibility() != 0) // that of pictures may be wider
-    width = std::min(static_cast<int>(beside_bar * width),
-                     width - colorBarWidth(width, height));
+  if (colors_->hasLegend())
+    width -= colorBarWidth(width, height);
   if (!surface_.getField().empty())
     height = static_cast<int>(above_slider * height);
   return ViewOptions::wholePicture(std::max(1, width), std::max(1, height));
 }
 
 void
-ViewerWindow::setCamera(const pcl_uvol::Camera& camera)
+ViewerWindow::centerView()
 {
-  vtkCamera& view = *renderer_->GetActiveCamera();
   const PictureCell free = findFreePart();
   const int* const size = window_->GetSize();
-  view.SetWindowCenter(1.0 - static_cast<double>(free.width) / size[0],
-                       static_cast<double>(free.height) / size[1] - 1.0);
+  renderer_->GetActiveCamera()->SetWindowCenter(
+      1.0 - static_cast<double>(free.width) / size[0],
+      static_cast<double>(free.height) / size[1] - 1.0);
+}
+
+void
+ViewerWindow::setCamera(const pcl_uvol::Camera& camera)
+{
+  centerView();
+  vtkCamera& view = *renderer_->GetActiveCamera();
   view.SetPosition(camera.eye.data());
   view.SetFocalPoint(camera.at.data());
   view.SetViewUp(camera.up.data());
@@ -113,6 +119,8 @@ ViewerWindow::lookFirst(bool is_placed)
           angleOfHigher(camera.vertical_fov,
                         static_cast<double>(window_->GetSize()[1]) / cell.height);
     setCamera(camera);
+    if (!is_placed)
+      fitted_ = getCamera();
   });
 }
 
@@ -128,7 +136,16 @@ ViewerWindow::lookAtAll(pcl_uvol::Camera camera)
     camera = fitToSurface(camera, seen, static_cast<double>(cell.width) / cell.height);
     camera.vertical_fov = whole_angle;
     setCamera(camera);
+    fitted_ = getCamera();
   });
+}
+
+bool
+ViewerWindow::isFitted() const
+{
+  const pcl_uvol::Camera camera = getCamera();
+  return camera.eye == fitted_.eye && camera.at == fitted_.at &&
+         camera.up == fitted_.up && camera.vertical_fov == fitted_.vertical_fov;
 }
 
 void

@@ -210,6 +210,7 @@ ViewerWindow::setUpScene(const pcl_uvol::Background& background)
   mesh_actor_->GetProperty()->SetEdgeColor(0.3, 0.3, 0.3);
   mesh_actor_->GetProperty()->SetColor(0.8, 0.8, 0.8);
   renderer_->AddViewProp(mesh_actor_);
+  observe(*renderer_, vtkCommand::StartEvent, [this](const void*) { fitFrame(); });
   window_->SetMultiSamples(0); // the prop smooths its borders itself
   window_->SetSize(look_.getWidth(), look_.getHeight());
   window_->AddRenderer(renderer_);
@@ -254,9 +255,6 @@ ViewerWindow::setUpTexts(const pcl_uvol::Background& background)
   const double grey = greyOn(background);
   setColor(*help_->GetTextProperty(), grey);
   setColor(*message_->GetTextProperty(), grey);
-  setColor(*bar_->GetTitleTextProperty(), grey);
-  setColor(*bar_->GetLabelTextProperty(), grey);
-  setColor(*bar_->GetAnnotationTextProperty(), grey);
   setColor(*slider_shape_->GetTitleProperty(), grey);
   setColor(*slider_shape_->GetLabelProperty(), grey);
   help_->SetInput(describeKeys().c_str());
@@ -267,13 +265,9 @@ ViewerWindow::setUpTexts(const pcl_uvol::Background& background)
   message_->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
   message_->SetPosition(0.02, 0.02);
   message_->VisibilityOff();
-  bar_->SetPosition(0.83, 0.25);
-  bar_->SetWidth(0.1);
-  bar_->SetHeight(0.5);
-  bar_->UnconstrainedFontSizeOn();
+  legend_.addTo(*renderer_);
   renderer_->AddViewProp(help_);
   renderer_->AddViewProp(message_);
-  renderer_->AddViewProp(bar_);
 }
 
 void
@@ -397,23 +391,34 @@ ViewerWindow::switchMesh()
 }
 
 void
+ViewerWindow::fitFrame()
+{
+  centerView();
+  legend_.fit(*renderer_, *colors_, prop_->renderer().settings().background);
+}
+
+void
 ViewerWindow::applyColor()
 {
+  legend_.change();
   if (surface_.getCloud())
-    colors_->apply(*surface_.getCloud(), prop_->renderer(), *bar_);
+    colors_->apply(*surface_.getCloud(), prop_->renderer());
   const std::string& field = colors_->getField();
   mesh_->SetScalarVisibility(colors_->hasScale());
   mesh_->SetScalarModeToUsePointFieldData();
   mesh_->SelectColorArray(field.c_str());
-  mesh_->SetLookupTable(bar_->GetLookupTable());
+  mesh_->SetLookupTable(&colors_->getTable());
   mesh_->UseLookupTableScalarRangeOn();
 }
 
 void
 ViewerWindow::nextColor()
 {
+  const bool had_bar = colors_->hasLegend(), was_fitted = isFitted();
   colors_->next();
   applyColor();
+  if (was_fitted && colors_->hasLegend() != had_bar)
+    lookAtAll(getCamera());
   const std::string& field = colors_->getField();
   show(field.empty() ? "one colour" : "coloured by " + field);
 }

@@ -8,6 +8,7 @@
 #include "viewer/scale_bar.h"
 #include "viewer/shown_surface.h"
 #include "viewer/typed_number.h"
+#include "viewer/window_legend.h"
 #include <pcl_uvol/vtk/image_space_prop.h>
 
 #include <vtkActor.h>
@@ -18,7 +19,6 @@
 #include <vtkRenderWindow.h>
 #include <vtkRenderWindowInteractor.h>
 #include <vtkRenderer.h>
-#include <vtkScalarBarActor.h>
 #include <vtkSliderRepresentation2D.h>
 #include <vtkSliderWidget.h>
 #include <vtkSmartPointer.h>
@@ -131,6 +131,10 @@ private:
   void
   setUpTriad(double grey);
 
+  /** Before a frame: put surface and bar in their places. */
+  void
+  fitFrame();
+
   /** Show a bar of a round length, where all directions have one scale. */
   void
   setUpScaleBar(double grey);
@@ -210,6 +214,10 @@ private:
 
   /** Show what a camera of the whole window sees in the middle of its free part. */
   void
+  centerView();
+
+  /** The same of another camera. */
+  void
   setCamera(const pcl_uvol::Camera& camera);
 
   pcl_uvol::Camera
@@ -219,6 +227,10 @@ private:
    * \param is_placed they place the camera, so that it is fitted to nothing */
   void
   lookFirst(bool is_placed);
+
+  /** Whether nobody has moved the camera since it was fitted to the surface. */
+  bool
+  isFitted() const;
 
   /** Show all of the surface from a side. */
   void
@@ -275,7 +287,8 @@ private:
   pcl_uvol::ColorScale scale_;  // of the slider
   std::array<int, 2> timers_{}; // the last ones; 0: there was none
   bool awaits_surface_ = false;
-  std::string error_; // of the last frame
+  std::string error_;       // of the last frame
+  pcl_uvol::Camera fitted_; // the last one that was fitted to the surface
   vtkNew<pcl_uvol::ImageSpaceProp> prop_;
   vtkNew<vtkPolyDataMapper> mesh_;
   vtkNew<vtkActor> mesh_actor_;
@@ -283,7 +296,7 @@ private:
   vtkNew<vtkRenderWindow> window_;
   vtkNew<vtkRenderWindowInteractor> interactor_;
   vtkNew<vtkTextActor> help_, message_;
-  vtkNew<vtkScalarBarActor> bar_;
+  WindowLegend legend_;
   vtkSmartPointer<vtkActor2D> histogram_;
   vtkNew<vtkSliderRepresentation2D> slider_shape_;
   vtkNew<vtkSliderWidget> slider_;
