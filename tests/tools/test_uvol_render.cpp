@@ -84,6 +84,27 @@ TEST_F(RenderTool, WritesAPictureOfTheSizeThatIsAskedFor)
   EXPECT_EQ(4, header.channels);
 }
 
+TEST_F(RenderTool, ColorsWithoutLightAreThoseOfTheMap)
+{
+  ASSERT_EQ(0,
+            run("-size 128 -supersample 1 -no-shading -color x*0+1 -range 0,2 -no-bar "
+                "-no-antialias "
+                "-smoothing none -colormap gray")
+                .exit_code);
+  const auto flat = pixels();
+  int grey = 0;
+  for (std::size_t i = 0; i < flat.size(); i += 4)
+    if (flat[i] != 255) {
+      EXPECT_NEAR(127.5, flat[i], 1.0);
+      ++grey;
+    }
+  EXPECT_GT(grey, 128 * 128 / 4);
+  EXPECT_NE(std::string::npos, run("-size 128 -no-shading").err.find("is white"));
+  for (const char* seen :
+       {"-silhouettes", "-features", "-background black", "-color normal_z"})
+    EXPECT_EQ("", run(std::string("-size 128 -no-shading ") + seen).err) << seen;
+}
+
 TEST_F(RenderTool, EveryModeIsAPictureOfItsOwn)
 {
   ASSERT_EQ(0, run("-size 128").exit_code);

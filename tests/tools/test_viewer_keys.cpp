@@ -41,6 +41,21 @@ TEST_F(UvolViewer, KeysSwitchPasses)
   open.type('+');
 }
 
+TEST_F(UvolViewer, ColorsStayWithoutLight)
+{
+  OpenWindow open(
+      makeVolume(), "intensity", {"-color", "x", "-range", "-1,3", "-no-bar"});
+  const Image lit = open.shoot();
+  open.type('1');
+  const Image flat = open.shoot();
+  EXPECT_NEAR(covered(lit), covered(flat), 0.02 * covered(lit));
+  EXPECT_TRUE(lit.color != flat.color);
+  open.type('c'); // one colour: white, with a message
+  EXPECT_LT(covered(open.shoot()), 0.1 * covered(lit));
+  open.type('4'); // silhouettes
+  EXPECT_GT(covered(open.shoot()), 300);
+}
+
 TEST_F(UvolViewer, MShowsAMeshAndThePointsAgain)
 {
   OpenWindow open(makeVolume(), "intensity", {"-color", "mean_curvature"});

@@ -6,6 +6,7 @@
 #include "render/image_space/cpu_backend.h"
 #include "render/surface_cloud.h"
 #include "shared/fallback_backend.h"
+#include "shared/flat_colors.h"
 #include "surface/memory_need.h"
 #include "web/surface_page.h"
 #include <pcl_uvol/render/image_space/image_space_renderer.h>
@@ -96,7 +97,10 @@ RenderOptions::declarePasses(Options& options)
   options.integer("occluded", s.occluded_fill, 0, most, "occluded fills at most");
   options.number(
       "layers", s.layer_distance, 1e-9, 1.0, "least distance of two layers in depth");
-  options.flag("no-shading", s.shading, "a white surface, for lines alone", false);
+  options.flag("no-shading",
+               s.shading,
+               "colours of -color without light, else a white surface, for lines alone",
+               false);
   options.number("occlusion",
                  s.ambient_occlusion,
                  0.0,
@@ -210,6 +214,12 @@ RenderOptions::drawCloud(const Options& options,
   renderer.setInputCloud(
       pcl::PCLPointCloud2::ConstPtr(&surface.cloud, [](const void*) {}));
   applyLook(options, cloud, renderer);
+  if (options.given("color") && !colorField(cloud).empty())
+    showColorsWithoutLight(renderer.settings());
+  else if (isInvisible(settings_))
+    report.warnings.push_back("The surface is white, as is the background: -no-shading "
+                              "leaves its lines, by -silhouettes and -features, or "
+                              "colours, by -color.");
   renderer.settings().background = getBackgroundOfViews();
   renderer.setOpacities(opacities_);
   renderer.setBackend(makeBackend(

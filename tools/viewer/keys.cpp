@@ -49,7 +49,7 @@ const PassKey pass_keys[] = {
     {'5',
      "feature lines",
      [](ImageSpaceSettings& s) { s.feature_lines = !s.feature_lines; }},
-    {'6', "lines on a white surface", toggleIllustration},
+    {'6', "lines without light", toggleIllustration},
     {'7',
      "footprints of points",
      [](ImageSpaceSettings& s) { s.footprints = !s.footprints; }},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "viewer/viewer_window.h"
 
+#include "shared/flat_colors.h"
 #include "viewer/keys.h"
 #include "viewer/value_histogram.h"
 #include <pcl_uvol/common/exceptions.h>
@@ -170,6 +171,7 @@ ViewerWindow::ViewerWindow(const std::string& path,
   prop_->setBackend(backend);
   pcl_uvol::ImageSpaceRendererBase& renderer = prop_->renderer();
   look_.applyLook(options, pcl_uvol::viewOf(*cloud), renderer);
+  passes_ = renderer.settings();
   colors_ = std::make_unique<ColorChoice>(look_, *cloud);
   observe(*prop_, vtkCommand::ErrorEvent, [this](const void* text) {
     error_ = extractWords(static_cast<const char*>(text));
@@ -401,6 +403,7 @@ void
 ViewerWindow::applyColor()
 {
   legend_.change();
+  applyPasses();
   if (surface_.getCloud())
     colors_->apply(*surface_.getCloud(), prop_->renderer());
   const std::string& field = colors_->getField();
@@ -409,6 +412,24 @@ ViewerWindow::applyColor()
   mesh_->SelectColorArray(field.c_str());
   mesh_->SetLookupTable(&colors_->getTable());
   mesh_->UseLookupTableScalarRangeOn();
+}
+
+void
+ViewerWindow::applyPasses()
+{
+  pcl_uvol::ImageSpaceSettings& settings = prop_->renderer().settings();
+  settings = passes_;
+  if (!colors_->getField().empty())
+    showColorsWithoutLight(settings);
+}
+
+bool
+ViewerWindow::switchPassOf(char key)
+{
+  const bool is_pass = switchPass(key, passes_);
+  if (is_pass)
+    applyPasses();
+  return is_pass;
 }
 
 void
@@ -543,8 +564,10 @@ ViewerWindow::press(char key)
       finish();
     if (key == '=' || typed_.isBegun())
       typeIsoValue(key);
-    else if (switchPass(key, prop_->renderer().settings()))
-      show("");
+    else if (switchPassOf(key))
+      show(colors_->getField().empty() && isInvisible(passes_)
+               ? "white without light: 4 and 5 draw lines"
+               : "");
     else if (key == 'c')
       nextColor();
     else if (key == 'f')

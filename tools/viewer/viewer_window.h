@@ -143,6 +143,15 @@ private:
   void
   showSurface();
 
+  /** Draw as keys have chosen. */
+  void
+  applyPasses();
+
+  /** Switch what a key of a pass switches.
+   * \return false for other keys */
+  bool
+  switchPassOf(char key);
+
   /** Show the triangles of the surface, coloured, instead of its points, if it has any.
    */
   void
@@ -283,6 +292,7 @@ private:
   const Open open_;
   std::unique_ptr<ColorChoice> colors_;
   OpacityChoice opacities_;
+  pcl_uvol::ImageSpaceSettings passes_;
   TypedNumber typed_;
   pcl_uvol::ColorScale scale_;  // of the slider
   std::array<int, 2> timers_{}; // the last ones; 0: there was none
