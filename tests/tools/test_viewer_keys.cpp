@@ -41,6 +41,21 @@ TEST_F(UvolViewer, KeysSwitchPasses)
   open.type('+');
 }
 
+TEST_F(UvolViewer, MessagesStandAboveTheSlider)
+{
+  OpenWindow open(makeVolume(), "intensity", {});
+  const Image silent = open.shoot();
+  open.type('o'); // of one isovalue it changes nothing but the message
+  const Image telling = open.shoot();
+  int above = 0;
+  for (std::size_t i = 0; i < silent.pixels(); ++i)
+    if (silent.color[4 * i] != telling.color[4 * i]) {
+      EXPECT_LT(i / width, height * 4 / 5);
+      ++above;
+    }
+  EXPECT_GT(above, 300);
+}
+
 TEST_F(UvolViewer, ColorsStayWithoutLight)
 {
   OpenWindow open(

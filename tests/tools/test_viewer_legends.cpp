@@ -27,12 +27,12 @@ pixelOf(const Image& image, int column, int row)
   return &image.color[4 * static_cast<std::size_t>(row * width + column)];
 }
 
-/** Pixels of the bar's columns that differ, where nothing else of the window lies. */
+/** Pixels of the bar's columns that differ above the slider. */
 int
 countDifferentInBar(const Image& a, const Image& b)
 {
   int count = 0;
-  for (int row = height / 6; row < height * 3 / 4; ++row)
+  for (int row = 0; row < height * 3 / 4; ++row)
     for (int column = beside_bar; column < width; ++column) {
       const std::uint8_t* const first = pixelOf(a, column, row);
       count += !std::equal(first, first + 3, pixelOf(b, column, row));

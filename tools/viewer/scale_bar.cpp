@@ -22,7 +22,7 @@ constexpr double longest = 0.2;
 
 /** Pixels to the borders of the window, of the lines at the ends, and between bar and
  * text. */
-constexpr double margin = 18.0, cap = 4.0, above = 7.0;
+constexpr double margin = 18.0, cap = 4.0, beside = 7.0;
 
 double
 pixelsPerUnit(vtkRenderer& renderer)
@@ -55,7 +55,9 @@ WindowScaleBar::addTo(vtkRenderer& renderer, double grey)
   };
   add(*ground_, grey < 0.5 ? 1.0 : 0.0, 4.0f);
   add(*line_, grey, 2.0f);
-  text_->GetTextProperty()->SetJustificationToCentered();
+  // Above the bar is the slider of the isovalue.
+  text_->GetTextProperty()->SetJustificationToRight();
+  text_->GetTextProperty()->SetVerticalJustificationToCentered();
   renderer.AddViewProp(text_);
 }
 
@@ -81,7 +83,7 @@ WindowScaleBar::fit(vtkRenderer& renderer, double factor)
   }
   ends_->Modified();
   text_->SetInput(bar.text.c_str());
-  text_->SetPosition(0.5 * (left + right), margin + above);
+  text_->SetPosition(left - beside, margin);
 }
 
 } // namespace uvol_tools

@@ -291,6 +291,7 @@ ViewerWindow::setUpSlider()
     end->SetCoordinateSystemToNormalizedDisplay();
     end->SetValue(x, 0.12);
   }
+  message_->SetPosition(0.02, 0.21); // above the slider, below which isovalues stand
   fitSlider();
   slider_->KeyPressActivationOff(); // else the key i hides it
   slider_->SetInteractor(interactor_);
@@ -340,7 +341,6 @@ ViewerWindow::setUpTriad(double grey)
   triad_->SetOrientationMarker(axes);
   triad_->KeyPressActivationOff(); // else the key i hides it
   triad_->SetInteractor(interactor_);
-  triad_->SetViewport(0.86, 0.86, 1.0, 1.0);
   triad_->EnabledOn();
   triad_->InteractiveOff(); // the mouse turns the surface there, too
 }
@@ -393,9 +393,26 @@ ViewerWindow::switchMesh()
 }
 
 void
+ViewerWindow::fitTriad()
+{
+  constexpr double part = 0.14, most = 0.25, least_pixels = 64.0; // of the sides
+  const PictureCell free = findFreePart();
+  const int* const size = window_->GetSize();
+  const auto lengthOn = [&](double side) {
+    return std::clamp(least_pixels / side, part, most);
+  };
+  const double right = static_cast<double>(free.width) / size[0];
+  double corner[4] = {
+      std::max(0.0, right - lengthOn(size[0])), 1.0 - lengthOn(size[1]), right, 1.0};
+  if (!std::equal(corner, corner + 4, triad_->GetViewport()))
+    triad_->SetViewport(corner);
+}
+
+void
 ViewerWindow::fitFrame()
 {
   centerView();
+  fitTriad();
   legend_.fit(*renderer_, *colors_, prop_->renderer().settings().background);
 }
 

@@ -131,7 +131,11 @@ private:
   void
   setUpTriad(double grey);
 
-  /** Before a frame: put surface and bar in their places. */
+  /** Keep that corner large enough for letters, and beside the bar. */
+  void
+  fitTriad();
+
+  /** Before a frame: put surface, bar and axes in their places. */
   void
   fitFrame();
 
