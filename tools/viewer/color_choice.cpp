@@ -5,7 +5,6 @@
 #include "common/scalar_field.h"
 #include "render/point_colors.h"
 
-#include <algorithm>
 #include <string>
 
 namespace uvol_tools {
