@@ -31,7 +31,8 @@ warnOfGuesses(const SurfaceGrounds& grounds,
 
 /** \brief Warn of samples next to the surface whose values stand alone, and where
  * max_error and drop_bridged left few isopoints or none, as the counts of a whole run
- * tell. \param isopoints that are left */
+ * tell.
+ * \param isopoints that are left */
 void
 warnOfLosses(const IsosurfacePipelineParameters& parameters,
              std::uint64_t isopoints,
