@@ -23,7 +23,8 @@ struct CoordinateColumns {
  * as good as z, and z may have any ending (z_minus_dbar); easting, northing and a
  * vertical; longitude, latitude and a vertical. A note tells of degrees, and of units
  * of length that differ. Upper and lower case are the same, and of several columns the
- * first counts. \return nothing if the names tell no coordinates */
+ * first counts.
+ * \return nothing if the names tell no coordinates */
 std::optional<CoordinateColumns>
 recognizeCoordinates(const std::vector<std::string>& names);
 

@@ -12,7 +12,9 @@
 #include "interpolation/field_model.h"
 #include "neighbors/nearest_finder.h"
 #include "neighbors/sampling.h"
+#include "pipeline/gap_widths.h"
 #include "pipeline/lattice_band.h"
+#include "pipeline/stretched_edges.h"
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 
 #include <Eigen/Geometry>
@@ -36,13 +38,6 @@ constexpr std::size_t block_places = 256;
 /** Samples that the field between others is kriged from. */
 constexpr std::size_t kriged_samples = 16;
 
-/** Predicted samples to the width of a gap: with 2, a hold-out test tells more of the
- * samples left out wrongly (tests/benchmarks), since gaps are narrower in places. */
-constexpr double samples_per_gap = 4.0;
-
-/** Spacings of predicted samples: edges that are longer reach across a gap. */
-constexpr double half_gap = 0.5 * samples_per_gap;
-
 /** Share of the spacing of the lattice: its nodes are moved so far along each axis, at
  * most, since edges slip between samples on a lattice. */
 constexpr double jitter = 0.25;
@@ -59,11 +54,6 @@ constexpr double hull_tolerance = 2.0;
 /** Widths of a gap that samples are predicted within of a measured one, at most: gaps
  * are not equally wide, and beyond there is nothing but the variogram. */
 constexpr double farthest_gaps = 4.0;
-
-/** Share of the spacing along lines: edges that are so many times as long reach across.
- * Where nothing is seen to lie beside a line, the gaps are as wide as the lower
- * quartile of these. */
-constexpr double crossing_edge = 8.0;
 
 /** Share of the isopoints: samples all around leave a few beside some emptiness, which
  * are no gaps. */
@@ -240,15 +230,6 @@ findExtent(const CloudView& cloud, const Eigen::Array3f& scale)
   return box.sizes().cast<double>().array() * scale.cast<double>();
 }
 
-/** The length of an edge in the stretched space. */
-double
-lengthOf(const CloudView& cloud, const IsoEdge& edge, const Eigen::Array3f& scale)
-{
-  const Eigen::Map<const Eigen::Array3f> a(cloud.xyz(edge.first)),
-      b(cloud.xyz(edge.second));
-  return ((b - a) * scale).matrix().cast<double>().norm();
-}
-
 void
 checkField(const Dataset& samples, const std::string& field)
 {
@@ -369,7 +350,7 @@ FilledGaps::measureErrors(const IsosurfaceParameters& parameters,
   const IsoEdges& edges = extraction.getEdges();
   std::vector<float> errors;
   for (std::size_t i = 0; i < fits.size(); ++i)
-    if (lengthOf(viewOf(samples_->cloud), edges[i], parameters.scale) >
+    if (stretchedLength(viewOf(samples_->cloud), edges[i], parameters.scale) >
         half_gap * summary_.spacing)
       errors.push_back(fits[i].error);
   if (!errors.empty())
@@ -490,7 +471,7 @@ FilledGaps::findSpacing(const pcl::PointCloud<PointIso>& roots,
     if (thin[i] == 0 && support[i] == FieldSupport::Measured)
       continue;
     ++in_gaps;
-    const double length = lengthOf(cloud, edges[i], parameters.scale);
+    const double length = stretchedLength(cloud, edges[i], parameters.scale);
     if (length > crossing_edge * static_cast<double>(sampling_.along))
       lengths.push_back(length);
   }

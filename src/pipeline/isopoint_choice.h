@@ -42,8 +42,8 @@ struct IsopointChoice {
       confidence.resize(kept);
   }
 
-  /** \brief Add the fields `method` and `orientation`, if either was chosen one by one,
-   * and `confidence`, if there is any. */
+  /** \brief Add the fields `method` and `orientation`, if isopoints were chosen one by
+   * one, and `confidence`, if there is any. */
   void
   addFields(bool is_chosen, Dataset& surface) const;
 };

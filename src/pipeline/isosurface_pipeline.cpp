@@ -197,8 +197,7 @@ finish(const Dataset& samples,
     const StepTimer timer(report, "fields");
     pcl::toPCLPointCloud2(isopoints, result.surface.cloud);
     keepIsovalues(isopoints, parameters.isosurface.isovalues, result.surface, report);
-    choice.addFields(parameters.isosurface.interpolation == Interpolation::Auto ||
-                         parameters.normals == NormalMethod::Auto,
+    choice.addFields(parameters.isosurface.interpolation == Interpolation::Auto,
                      result.surface);
     warnOfReplacedFields(view.fields, result.surface.cloud.fields, report);
     interpolateFields(view, edges, result.surface.cloud, threads);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/known_isopoints.h"
 
+#include "pipeline/gap_widths.h"
+#include "pipeline/stretched_edges.h"
+
 #include <algorithm>
 #include <cstdint>
 
@@ -16,12 +19,6 @@ namespace {
  * samples what strays little from those around: 19 % on the drill holes. A quarter
  * leaves 56 % of the smoothed ones, and the whole edge keeps nearly everything. */
 constexpr float known_part = 0.5f;
-
-/** Spacings along lines or sheets: edges that are longer may reach across to others. */
-constexpr float crossing_edge = 8.0f;
-
-/** Spacings of predicted samples, which are half of a gap. */
-constexpr double predicted_in_half_gap = 2.0;
 
 bool
 isPredicted(const PointIso& point)
@@ -45,10 +42,11 @@ KnownIsopoints::KnownIsopoints(const CloudView& samples,
     , scale_(scale)
 {
   if (gaps && gaps->predicted > 0)
-    longest_ = half_gap_ = static_cast<float>(predicted_in_half_gap * gaps->spacing);
+    longest_ = half_gap_ = static_cast<float>(detail::half_gap * gaps->spacing);
   else if (sampling && (sampling->most == LocalDimension::Line ||
                         sampling->most == LocalDimension::Sheet))
-    longest_ = std::min(crossing_edge * sampling->along, 0.5f * sampling->across);
+    longest_ = std::min(static_cast<float>(detail::crossing_edge) * sampling->along,
+                        0.5f * sampling->across);
 }
 
 bool
@@ -61,10 +59,8 @@ KnownIsopoints::contain(const PointIso& point, const IsoEdge& edge) const
         (point.getNormalVector3fMap().array() / scale_).matrix().norm();
     return point.error <= half_gap_ * stretch;
   }
-  const Eigen::Map<const Eigen::Array3f> a(samples_.xyz(edge.first)),
-      b(samples_.xyz(edge.second));
   return isKnown(point) || (point.error <= point.edge_length &&
-                            ((b - a) * scale_).matrix().norm() <= longest_);
+                            stretchedLength(samples_, edge, scale_) <= longest_);
 }
 
 } // namespace pcl_uvol

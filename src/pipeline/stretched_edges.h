@@ -14,6 +14,17 @@
 
 namespace pcl_uvol {
 
+/** \brief The length of an edge in the stretched space. */
+inline double
+stretchedLength(const CloudView& samples,
+                const IsoEdge& edge,
+                const Eigen::Array3f& scale)
+{
+  const Eigen::Map<const Eigen::Array3f> a(samples.xyz(edge.first)),
+      b(samples.xyz(edge.second));
+  return ((b - a) * scale).matrix().cast<double>().norm();
+}
+
 /** \brief Edges of isopoints in the stretched space. */
 class StretchedEdges {
 public:

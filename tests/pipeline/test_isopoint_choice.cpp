@@ -204,28 +204,6 @@ TEST(IsopointChoice, FewSamplesAllAroundHaveABorder)
   }
 }
 
-TEST(IsopointChoice, TellsItselfUnlessBothAreChosenForAll)
-{
-  const auto samples = makeProfiles(20);
-  for (const Interpolation interpolation :
-       {Interpolation::Auto, Interpolation::Fit, Interpolation::Linear}) {
-    const IsosurfaceResult result =
-        uvol_test::runPipeline(samples, makeParameters(interpolation));
-    const CloudView view = viewOf(result.surface.cloud);
-    const ScalarField method(view.fields, "method"),
-        orientation(view.fields, "orientation");
-    for (std::size_t i = 0; i < view.count; ++i) {
-      const bool is_linear = interpolation == Interpolation::Linear;
-      EXPECT_TRUE(!is_linear || method.read(view.point(i)) == 1.0);
-      EXPECT_TRUE(!is_linear || orientation.read(view.point(i)) == 3.0);
-    }
-  }
-  IsosurfacePipelineParameters parameters = makeParameters(Interpolation::Linear);
-  parameters.normals = NormalMethod::Edge;
-  const IsosurfaceResult same = uvol_test::runPipeline(samples, parameters);
-  EXPECT_EQ(nullptr, findField(same.surface.cloud.fields, "method"));
-}
-
 TEST(IsopointChoice, LeavesDenseSurfacesOnTheirFits)
 {
   const auto samples = makeSphere(20000);
@@ -274,6 +252,7 @@ TEST(IsopointChoice, IsToldAfterLevelSetsAndInMeshes)
     auto fitted = parameters;
     fitted.isosurface.interpolation = Interpolation::Fit;
     const auto same = uvol_test::runPipeline(makeProfiles(60), fitted);
+    EXPECT_EQ(nullptr, findField(same.surface.cloud.fields, "method"));
     const auto points = uvol_test::toIsopoints(result),
                others = uvol_test::toIsopoints(same);
     ASSERT_EQ(points.size(), others.size());

@@ -287,11 +287,11 @@ class FilledGaps;
 struct PCL_UVOL_EXPORTS IsosurfaceResult {
   /** The isopoints: the fields of PointIso, then all fields of the samples that these
    * do not replace. `isovalue` is float64, behind these, where float holds one of the
-   * isovalues as infinite or as zero. With Interpolation::Auto or NormalMethod::Auto
-   * also `method` and `orientation`, numbers of IsoMethod and IsoOrientation; after a
-   * level set and in a mesh it takes a fit wherever there is one. With a mesh its
-   * vertices, and behind the other fields `piece`, among pieces, and `cap`, 1 where a
-   * vertex closes the samples' box. */
+   * isovalues as infinite or as zero. With Interpolation::Auto also `method` and
+   * `orientation`, numbers of IsoMethod and IsoOrientation; after a level set and in a
+   * mesh it takes a fit wherever there is one. With a mesh its vertices, and behind the
+   * other fields `piece`, among pieces, and `cap`, 1 where a vertex closes the samples'
+   * box. */
   Dataset surface;
   std::vector<Triangle> triangles; ///< with a mesh: counter-clockwise seen from outside
   std::vector<SurfacePiece> pieces; ///< with a mesh: see SurfaceTriangles
