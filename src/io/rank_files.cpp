@@ -154,24 +154,27 @@ struct Layout {
   void
   requireFieldsOf(const Layout& other) const
   {
+    // In the order of their names, whichever process reads which.
+    const bool is_first = path < other.path;
+    const Layout &one = is_first ? *this : other, &another = is_first ? other : *this;
     const auto [own, its] =
-        std::mismatch(fields.begin(),
-                      fields.end(),
-                      other.fields.begin(),
-                      other.fields.end(),
+        std::mismatch(one.fields.begin(),
+                      one.fields.end(),
+                      another.fields.begin(),
+                      another.fields.end(),
                       [](const auto& a, const auto& b) {
                         return a.name == b.name && a.offset == b.offset &&
                                a.datatype == b.datatype && a.count == b.count;
                       });
-    if (own == fields.end() && its == other.fields.end())
+    if (own == one.fields.end() && its == another.fields.end())
       return;
     const auto describe = [](const auto& field, const auto& end) {
       return field == end ? "none" : describeFields({*field});
     };
-    throw InvalidArgument("The pieces '" + path + "' and '" + other.path +
+    throw InvalidArgument("The pieces '" + one.path + "' and '" + another.path +
                           "' have different fields: where the one has " +
-                          describe(own, fields.end()) + ", the other has " +
-                          describe(its, other.fields.end()) +
+                          describe(own, one.fields.end()) + ", the other has " +
+                          describe(its, another.fields.end()) +
                           "; write all of them with the same arrays.");
   }
 

@@ -32,7 +32,7 @@ add(const PointIso& point,
 std::string
 tellPart(std::size_t part, std::size_t all, const std::string& text)
 {
-  return std::to_string(100 * part / all) + " % of the isopoints lie " + text;
+  return std::to_string(100 * part / all) + text;
 }
 
 } // namespace
@@ -74,21 +74,24 @@ tellGuesses(const SurfaceGrounds& grounds,
                         grounds.at_border + (lie_all_around ? grounds.beside_gaps : 0),
                     all = grounds.at_border + grounds.beside_gaps + grounds.guessed;
   if (2 * at_border > grounds.known)
-    return tellPart(at_border,
-                    grounds.known,
-                    "at the border of the samples: the surface may go on beyond it.");
+    return tellPart(
+        at_border,
+        grounds.known,
+        " % of the isopoints lie at the border of the samples: the surface may go "
+        "on beyond it.");
   if (2 * all <= grounds.known)
     return "";
   if (lie_all_around && at_border > grounds.guessed)
-    return tellPart(all,
-                    grounds.known,
-                    "at the border of the samples or in gaps: the surface may go on "
-                    "beyond it.");
+    return tellPart(
+        all,
+        grounds.known,
+        " % of the isopoints lie at the border of the samples or in gaps: the "
+        "surface may go on beyond it.");
   return tellPart(
       all,
       grounds.known,
-      "between lines of samples or beside gaps: where the surface crosses a line is "
-      "known, how it runs from there is a guess." +
+      " % of the isopoints lie between lines of samples or beside gaps: where the "
+      "surface crosses a line is known, how it runs from there is a guess." +
           advice);
 }
 
