@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Results do not depend on a few points that lie far from the others.
-#include "io/point_stream.h"
 #include "io/unit_samples.h"
-#include "pipeline/extract_out_of_core.h"
-#include "support/environment.h"
 #include "support/surfaces.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/derivatives/gradient_estimation.h>
@@ -87,17 +84,10 @@ TEST(Strays, AreTheSameOnRanksAndDisks)
   Report alone;
   const Isopoints expected = extract(cloud, settings, &alone);
   EXPECT_EQ(3u, alone.getCount("strays"));
-  const TemporaryFolder folder;
   Dataset dataset;
   pcl::toPCLPointCloud2(*cloud, dataset.cloud);
-  pcl_uvol::saveDataset(folder / "in.pcd", dataset);
-  pcl_uvol::PointStream points(folder / "in.pcd");
-  pcl_uvol::OutOfCoreSettings out_of_core;
-  out_of_core.max_memory = pcl_uvol::leastOutOfCoreMemory(points.size(), 1);
-  out_of_core.scratch_folder = folder / "";
   Report report;
-  expectSame(expected,
-             extractOutOfCore(points, settings, out_of_core, report).isopoints);
+  expectSame(expected, extractFromDisk(dataset, settings, report));
   EXPECT_EQ(3u, report.getCount("strays"));
   EXPECT_EQ(alone.warnings, report.warnings);
 }

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Results do not depend on the unit of length.
-#include "io/point_stream.h"
 #include "io/unit_samples.h"
 #include "pipeline/extract_from_ranks.h"
-#include "pipeline/extract_out_of_core.h"
 #include "support/clouds.h"
-#include "support/environment.h"
 #include "support/surfaces.h"
 #include "support/thread_ranks.h"
 #include <pcl_uvol/derivatives/gradient_estimation.h>
@@ -240,17 +237,10 @@ TEST_P(Units, RanksAndDisksGiveTheSame)
   });
   expectSame(expected, found);
 
-  const TemporaryFolder folder;
   Dataset dataset;
   pcl::toPCLPointCloud2(*cloud, dataset.cloud);
-  pcl_uvol::saveDataset(folder / "in.pcd", dataset);
-  pcl_uvol::PointStream points(folder / "in.pcd");
-  pcl_uvol::OutOfCoreSettings out_of_core;
-  out_of_core.max_memory = pcl_uvol::leastOutOfCoreMemory(points.size(), 1);
-  out_of_core.scratch_folder = folder / "";
   Report report;
-  expectSame(expected,
-             extractOutOfCore(points, settings, out_of_core, report).isopoints);
+  expectSame(expected, extractFromDisk(dataset, settings, report));
   EXPECT_GT(report.getCount("pieces"), 1u);
 }
 

@@ -2,10 +2,7 @@
 // Results do not depend on the unit and the offset of values, nor on a few that lie far
 // from the others.
 #include "common/records.h"
-#include "io/point_stream.h"
 #include "io/unit_samples.h"
-#include "pipeline/extract_out_of_core.h"
-#include "support/environment.h"
 #include <pcl_uvol/derivatives/gradient_estimation.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/levelset/level_set_evolution.h>
@@ -176,18 +173,11 @@ TEST(Values, OffsetsCostNothingOnDisk)
   const auto cloud = makeSamples(0, 40000);
   const auto map = [](double f) { return f + 1e7; };
   const Isopoints expected = extractDoubles(*cloud, map, sphere_radius + 1e7);
-  const TemporaryFolder folder;
-  pcl_uvol::saveDataset(folder / "in.pcd", withDoubles(*cloud, map));
-  pcl_uvol::PointStream points(folder / "in.pcd");
-  pcl_uvol::OutOfCoreSettings out_of_core;
-  out_of_core.max_memory = pcl_uvol::leastOutOfCoreMemory(points.size(), 1);
-  out_of_core.scratch_folder = folder / "";
   IsosurfaceParameters settings = settingsOf(Interpolation::Fit);
   settings.field = "f";
   settings.isovalues = {sphere_radius + 1e7};
   Report report;
-  expectSame(expected,
-             extractOutOfCore(points, settings, out_of_core, report).isopoints);
+  expectSame(expected, extractFromDisk(withDoubles(*cloud, map), settings, report));
   EXPECT_EQ(40000u, report.getCount("samples"));
 }
 

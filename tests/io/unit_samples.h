@@ -2,7 +2,10 @@
 // Samples around a sphere in any unit of length, and their isopoints.
 #pragma once
 
+#include "io/point_stream.h"
+#include "pipeline/extract_out_of_core.h"
 #include "support/environment.h"
+#include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 
 #include <gtest/gtest.h>
@@ -88,6 +91,21 @@ allOf(std::size_t count)
   std::vector<std::uint32_t> all(count);
   std::iota(all.begin(), all.end(), 0u);
   return all;
+}
+
+/** \brief Their isopoints by pieces on disk, in the least memory. */
+inline Isopoints
+extractFromDisk(const pcl_uvol::Dataset& samples,
+                const IsosurfaceParameters& settings,
+                Report& report)
+{
+  const TemporaryFolder folder;
+  pcl_uvol::saveDataset(folder / "in.pcd", samples);
+  pcl_uvol::PointStream points(folder / "in.pcd");
+  pcl_uvol::OutOfCoreSettings out_of_core;
+  out_of_core.max_memory = pcl_uvol::leastOutOfCoreMemory(points.size(), 1);
+  out_of_core.scratch_folder = folder / "";
+  return extractOutOfCore(points, settings, out_of_core, report).isopoints;
 }
 
 } // namespace uvol_test
