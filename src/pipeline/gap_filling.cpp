@@ -8,7 +8,6 @@
 #include "common/random.h"
 #include "common/records.h"
 #include "common/scalar_field.h"
-#include "common/stretch_axes.h"
 #include "interpolation/field_model.h"
 #include "neighbors/nearest_finder.h"
 #include "neighbors/sampling.h"
@@ -17,7 +16,6 @@
 #include "pipeline/stretched_edges.h"
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 
-#include <Eigen/Geometry>
 #include <pcl/conversions.h>
 #include <pcl/point_types.h>
 
@@ -46,11 +44,6 @@ constexpr double jitter = 0.25;
  * more than the lattice does, whatever lies around. */
 constexpr double sampled_part = 0.5;
 
-/** Share of that spacing, half a gap: so far outside of the convex hull of the measured
- * samples a place still counts as between them. Without, samples on a plane have no
- * gaps, and a dive at the end of a glider's track that is left out lies around them. */
-constexpr double hull_tolerance = 2.0;
-
 /** Widths of a gap that samples are predicted within of a measured one, at most: gaps
  * are not equally wide, and beyond there is nothing but the variogram. */
 constexpr double farthest_gaps = 4.0;
@@ -61,13 +54,6 @@ constexpr double least_gaps = 0.1;
 
 /** Beyond it along an axis, which takes a stray sample, no surface is followed. */
 constexpr double farthest_node = (1 << 20) - 4;
-
-/** Nodes that a surface is followed beyond others, on either side. */
-constexpr double band_width = 2.0;
-
-/** Nodes of a surface over the area of the sides of the box, in squares of their
- * spacing, at most: real data and generated ones have up to 0.9. */
-constexpr double nodes_per_area = 4.0;
 
 using Place = std::array<double, 3>;
 
@@ -215,21 +201,6 @@ tellWhyEmpty(const GapFilling& gaps, std::size_t kriged)
                      : "the kriged field does not cross the isovalue in the gaps";
 }
 
-/** The sides of the box around finite points, after scaling. */
-Eigen::Array3d
-findExtent(const CloudView& cloud, const Eigen::Array3f& scale)
-{
-  Eigen::AlignedBox3f box;
-  for (std::size_t i = 0; i < cloud.count; ++i) {
-    const Eigen::Map<const Eigen::Vector3f> place(cloud.xyz(i));
-    if (place.allFinite())
-      box.extend(place);
-  }
-  if (box.isEmpty())
-    return Eigen::Array3d::Zero();
-  return box.sizes().cast<double>().array() * scale.cast<double>();
-}
-
 void
 checkField(const Dataset& samples, const std::string& field)
 {
@@ -241,38 +212,6 @@ checkField(const Dataset& samples, const std::string& field)
 }
 
 } // namespace
-
-double
-estimateGapNodes(const CloudView& cloud,
-                 const IsosurfacePipelineParameters& parameters,
-                 unsigned threads)
-{
-  const IsosurfaceParameters& isosurface = parameters.isosurface;
-  pcl::Indices every(cloud.count);
-  std::iota(every.begin(), every.end(), 0);
-  SamplingSummary sampling;
-  try {
-    sampling = summarizeSampling(
-        cloud, every, isosurface.field, isosurface.scale, parameters.rotation, threads);
-  }
-  catch (const InvalidArgument&) {
-    return 0.0; // whoever fills gaps will tell what is wrong
-  }
-  const double width =
-      std::isfinite(sampling.across)
-          ? static_cast<double>(sampling.across)
-          : crossing_edge * static_cast<double>(sampling.along); // gaps are wider
-  const Eigen::Array3d sides =
-      findExtent(StretchAxes(parameters.rotation).turn(cloud), isosurface.scale) *
-          (samples_per_gap / width) +
-      2.0 * (hull_tolerance + band_width);
-  const double area =
-      2.0 * (sides[0] * sides[1] + sides[1] * sides[2] + sides[2] * sides[0]);
-  return std::min(
-      {static_cast<double>(most_gap_nodes),
-       sides.prod(),
-       nodes_per_area * area * static_cast<double>(isosurface.isovalues.size())});
-}
 
 InterpolationParameters
 gapKriging(const IsosurfaceParameters& isosurface)

@@ -12,6 +12,12 @@ constexpr double samples_per_gap = 4.0;
 /** \brief Spacings of predicted samples: edges that are longer reach across a gap. */
 constexpr double half_gap = 0.5 * samples_per_gap;
 
+/** \brief Spacings of predicted samples, half a gap: so far outside of the convex hull
+ * of the measured samples a place still counts as between them. Without, samples on a
+ * plane have no gaps, and a dive at the end of a glider's track that is left out lies
+ * around them. */
+constexpr double hull_tolerance = half_gap;
+
 /** \brief Spacings along lines or sheets: edges that are longer may reach across to
  * others. Where nothing is seen to lie beside a line, the gaps are as wide as the lower
  * quartile of these edges. */

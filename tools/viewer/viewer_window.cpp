@@ -3,24 +3,19 @@
 
 #include "shared/flat_colors.h"
 #include "viewer/keys.h"
-#include "viewer/value_histogram.h"
+#include "viewer/mouse_style.h"
+#include "viewer/observe.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/filters/point_data.h>
 
-#include <vtkAxesActor.h>
-#include <vtkCallbackCommand.h>
 #include <vtkCamera.h>
-#include <vtkCaptionActor2D.h>
 #include <vtkCellArray.h>
+#include <vtkCommand.h>
 #include <vtkErrorCode.h>
-#include <vtkInteractorStyleTrackballCamera.h>
-#include <vtkObjectFactory.h>
 #include <vtkPNGWriter.h>
 #include <vtkPolyData.h>
 #include <vtkProperty.h>
-#include <vtkProperty2D.h>
 #include <vtkStringArray.h>
-#include <vtkTextProperty.h>
 #include <vtkWindowToImageFilter.h>
 
 #include <algorithm>
@@ -52,72 +47,6 @@ constexpr unsigned long look_interval = 15;
 /** Keys that mean the surface that was asked for, and not those on the way to it. */
 constexpr std::string_view keys_of_surface = "7efkprsSxXyYzZ";
 
-/** VTK's way to turn, move and zoom with the mouse, without its keys. */
-class MouseStyle : public vtkInteractorStyleTrackballCamera {
-public:
-  vtkTypeMacro(MouseStyle, vtkInteractorStyleTrackballCamera);
-  static MouseStyle*
-  New();
-
-  void
-  OnChar() override
-  {
-    press(Interactor->GetKeyCode());
-  }
-
-  /** VTK's own would turn on while a button is held: the timers are not meant for it.
-   */
-  void
-  OnTimer() override
-  {
-  }
-
-  void
-  OnLeftButtonDown() override
-  {
-    std::copy_n(Interactor->GetEventPosition(), 2, pressed_at_);
-    vtkInteractorStyleTrackballCamera::OnLeftButtonDown();
-  }
-
-  void
-  OnLeftButtonUp() override
-  {
-    vtkInteractorStyleTrackballCamera::OnLeftButtonUp();
-    const int* const at = Interactor->GetEventPosition();
-    if (std::abs(at[0] - pressed_at_[0]) + std::abs(at[1] - pressed_at_[1]) <=
-        still_pixels)
-      click(at[0], at[1]);
-  }
-
-  std::function<void(char)> press;
-  std::function<void(int column, int row)> click;
-
-private:
-  /** A hand that clicks moves the mouse by no more. */
-  static constexpr int still_pixels = 2;
-
-  int pressed_at_[2] = {0, 0};
-};
-
-vtkStandardNewMacro(MouseStyle);
-
-/** Call a function with an event's data, if it has some. */
-void
-observe(vtkObject& object,
-        unsigned long event,
-        std::function<void(const void* data)> function)
-{
-  using Function = std::function<void(const void* data)>;
-  vtkNew<vtkCallbackCommand> command;
-  command->SetClientData(new Function(std::move(function)));
-  command->SetClientDataDeleteCallback(
-      [](void* function_data) { delete static_cast<Function*>(function_data); });
-  command->SetCallback([](vtkObject*, unsigned long, void* function_data, void* data) {
-    (*static_cast<Function*>(function_data))(data);
-  });
-  object.AddObserver(event, command);
-}
-
 /** "ERROR: In file, line 5\nImageSpaceProp (0x1): Words.\n\n" -> "Words." */
 std::string
 extractWords(const std::string& error)
@@ -125,29 +54,6 @@ extractWords(const std::string& error)
   const std::size_t start = error.find("): ");
   std::string words = error.substr(start == std::string::npos ? 0 : start + 3);
   return words.substr(0, words.find('\n'));
-}
-
-/** What is read on a background. */
-double
-greyOn(const pcl_uvol::Background& background)
-{
-  const pcl_uvol::Color& color = background.color;
-  return color.r + color.g + color.b > 1.5f ? 0.15 : 0.85;
-}
-
-void
-setColor(vtkTextProperty& text, double grey)
-{
-  // Letters are read on any surface.
-  constexpr double opacity = 0.6;
-  const double ground = grey < 0.5 ? 1.0 : 0.0;
-  text.SetColor(grey, grey, grey);
-  text.SetBackgroundColor(ground, ground, ground);
-  text.SetBackgroundOpacity(opacity);
-  text.SetFontSize(12);
-  text.ShadowOff();
-  text.ItalicOff();
-  text.BoldOff();
 }
 
 } // namespace
@@ -184,8 +90,8 @@ ViewerWindow::ViewerWindow(const std::string& path,
   nameWindow(path);
   if (!surface_.getField().empty())
     setUpSlider();
-  setUpTriad(greyOn(background));
-  setUpScaleBar(greyOn(background));
+  setUpTriad(background);
+  setUpScaleBar(background);
   render();
   if (!error_.empty())
     throw pcl_uvol::Exception(error_);
@@ -252,110 +158,9 @@ ViewerWindow::setUpScene(const pcl_uvol::Background& background)
 }
 
 void
-ViewerWindow::setUpTexts(const pcl_uvol::Background& background)
-{
-  const double grey = greyOn(background);
-  setColor(*help_->GetTextProperty(), grey);
-  setColor(*message_->GetTextProperty(), grey);
-  setColor(*slider_shape_->GetTitleProperty(), grey);
-  setColor(*slider_shape_->GetLabelProperty(), grey);
-  help_->SetInput(describeKeys().c_str());
-  help_->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
-  help_->SetPosition(0.02, 0.98);
-  help_->GetTextProperty()->SetVerticalJustificationToTop();
-  help_->VisibilityOff();
-  message_->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
-  message_->SetPosition(0.02, 0.02);
-  message_->VisibilityOff();
-  legend_.addTo(*renderer_);
-  renderer_->AddViewProp(help_);
-  renderer_->AddViewProp(message_);
-}
-
-void
-ViewerWindow::setUpSlider()
-{
-  slider_shape_->SetMinimumValue(0.0);
-  slider_shape_->SetMaximumValue(1.0);
-  slider_shape_->ShowSliderLabelOff();
-  slider_shape_->SetSliderLength(0.03); // parts of the window
-  slider_shape_->SetSliderWidth(0.03);
-  slider_shape_->SetTubeWidth(0.008);
-  slider_shape_->SetEndCapLength(0.0);
-  slider_shape_->GetTubeProperty()->SetColor(0.6, 0.6, 0.6);
-  slider_shape_->GetCapProperty()->SetColor(0.6, 0.6, 0.6);
-  slider_shape_->GetSliderProperty()->SetColor(0.2, 0.4, 0.7);
-  slider_shape_->GetSelectedProperty()->SetColor(0.3, 0.6, 1.0);
-  for (const auto& [end, x] : {std::pair(slider_shape_->GetPoint1Coordinate(), 0.1),
-                               std::pair(slider_shape_->GetPoint2Coordinate(), 0.9)}) {
-    end->SetCoordinateSystemToNormalizedDisplay();
-    end->SetValue(x, 0.12);
-  }
-  message_->SetPosition(0.02, 0.21); // above the slider, below which isovalues stand
-  fitSlider();
-  slider_->KeyPressActivationOff(); // else the key i hides it
-  slider_->SetInteractor(interactor_);
-  slider_->SetRepresentation(slider_shape_);
-  slider_->SetAnimationModeToJump();
-  observe(*slider_, vtkCommand::InteractionEvent, [this](const void*) {
-    attempt([this] { followSlider(); });
-  });
-  slider_->EnabledOn();
-}
-
-void
-ViewerWindow::fitSlider()
-{
-  // Fields of many decades have most of their surfaces in the lower ones.
-  constexpr double many_decades = 1e3;
-  const auto& [low, high] = surface_.getRange();
-  scale_ = {low, high, low > 0.0 && high / low >= many_decades};
-  slider_shape_->SetValue(scale_.placeOf(surface_.getIsoValue()));
-  nameIsoValue();
-  renderer_->RemoveViewProp(histogram_);
-  histogram_ = drawHistogram(surface_.readValues(), scale_, {{0.1, 0.125, 0.9, 0.2}});
-  renderer_->AddViewProp(histogram_);
-}
-
-void
 ViewerWindow::nameWindow(const std::string& path)
 {
   window_->SetWindowName(("uvol_viewer " + path + " (h: keys)").c_str());
-}
-
-void
-ViewerWindow::setUpTriad(double grey)
-{
-  vtkNew<vtkAxesActor> axes;
-  axes->SetXAxisLabelText("x");
-  axes->SetYAxisLabelText("y");
-  axes->SetZAxisLabelText("z");
-  for (vtkCaptionActor2D* const caption : {axes->GetXAxisCaptionActor2D(),
-                                           axes->GetYAxisCaptionActor2D(),
-                                           axes->GetZAxisCaptionActor2D()}) {
-    vtkTextProperty& letters = *caption->GetCaptionTextProperty();
-    setColor(letters, grey);
-    letters.SetBackgroundOpacity(0.0);
-    caption->GetTextActor()->SetTextScaleModeToNone(); // else it goes by the corner
-  }
-  triad_->SetOrientationMarker(axes);
-  triad_->KeyPressActivationOff(); // else the key i hides it
-  triad_->SetInteractor(interactor_);
-  triad_->EnabledOn();
-  triad_->InteractiveOff(); // the mouse turns the surface there, too
-}
-
-void
-ViewerWindow::setUpScaleBar(double grey)
-{
-  const double factor = surface_.getFactors().x();
-  if (surface_.getFactors() != Eigen::Vector3d::Constant(factor))
-    return;
-  setColor(scale_bar_.getLetters(), grey);
-  scale_bar_.addTo(*renderer_, grey);
-  observe(*renderer_, vtkCommand::StartEvent, [this, factor](const void*) {
-    scale_bar_.fit(*renderer_, factor);
-  });
 }
 
 void

@@ -129,7 +129,7 @@ private:
 
   /** Show how the axes lie, in a corner. */
   void
-  setUpTriad(double grey);
+  setUpTriad(const pcl_uvol::Background& background);
 
   /** Keep that corner large enough for letters, and beside the bar. */
   void
@@ -141,7 +141,7 @@ private:
 
   /** Show a bar of a round length, where all directions have one scale. */
   void
-  setUpScaleBar(double grey);
+  setUpScaleBar(const pcl_uvol::Background& background);
 
   /** Show the surface as it is now, coloured. */
   void
