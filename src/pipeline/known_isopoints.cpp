@@ -20,10 +20,21 @@ namespace {
  * leaves 56 % of the smoothed ones, and the whole edge keeps nearly everything. */
 constexpr float known_part = 0.5f;
 
+/** Rounding of lengths that are parts of another. */
+constexpr float rounding = 1e-5f;
+
 bool
-isPredicted(const PointIso& point)
+has(IsoSupport support, const PointIso& point)
 {
-  return point.support == static_cast<std::uint8_t>(IsoSupport::Predicted);
+  return point.support == static_cast<std::uint8_t>(support);
+}
+
+/** The error of a place on an edge of which only its ends are known: the surface lies
+ * between these. */
+float
+errorOnEdge(const PointIso& point, const IsoEdge& edge)
+{
+  return std::max(edge.t, 1.0f - edge.t) * point.edge_length;
 }
 
 } // namespace
@@ -40,6 +51,7 @@ KnownIsopoints::KnownIsopoints(const CloudView& samples,
                                const GapFilling* gaps)
     : samples_(samples)
     , scale_(scale)
+    , lies_all_around_(sampling && sampling->most == LocalDimension::Volume)
 {
   if (gaps && gaps->predicted > 0)
     longest_ = half_gap_ = static_cast<float>(detail::half_gap * gaps->spacing);
@@ -52,15 +64,22 @@ KnownIsopoints::KnownIsopoints(const CloudView& samples,
 bool
 KnownIsopoints::contain(const PointIso& point, const IsoEdge& edge) const
 {
-  if (isPredicted(point)) {
+  if (has(IsoSupport::Predicted, point)) {
     // The normal is a covector: of a unit length in the stretched space it is longer by
     // what lengths along it are.
     const float stretch =
         (point.getNormalVector3fMap().array() / scale_).matrix().norm();
     return point.error <= half_gap_ * stretch;
   }
-  return isKnown(point) || (point.error <= point.edge_length &&
-                            stretchedLength(samples_, edge, scale_) <= longest_);
+  const bool is_crossing = point.error <= point.edge_length &&
+                           stretchedLength(samples_, edge, scale_) <= longest_;
+  if (has(IsoSupport::Bridged, point))
+    return is_crossing ||
+           (isKnown(point) &&
+            point.error < (1.0f - rounding) * errorOnEdge(point, edge));
+  return is_crossing || isKnown(point) ||
+         (lies_all_around_ &&
+          point.error <= (1.0f + rounding) * errorOnEdge(point, edge));
 }
 
 } // namespace pcl_uvol

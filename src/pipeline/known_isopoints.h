@@ -23,9 +23,12 @@ isKnown(const PointIso& point);
 
 /** \brief Tells which isopoints are known.
  *
- * Besides those that isKnown() tells of, where samples lie on lines or sheets the
- * crossings between neighbours of one of these: their edges are short beside the gaps,
- * and the surface does cross there. Predicted isopoints have no edge between measured
+ * Besides those that isKnown() tells of, where samples lie all around the crossings of
+ * values that jump, as at the border of a material: all that can be known is that the
+ * surface lies between the two samples. Where an edge bridges a gap or slips past other
+ * samples that is not enough. Where samples lie on lines or sheets the crossings between
+ * neighbours of one of these: their edges are short beside the gaps, and the surface
+ * does cross there. Predicted isopoints have no edge between measured
  * samples: their error must be at most half of the gap, in the stretched space. */
 class KnownIsopoints {
 public:
@@ -42,6 +45,7 @@ public:
 private:
   const CloudView& samples_;
   Eigen::Array3f scale_;
+  bool lies_all_around_;
   float half_gap_ = 0.0f; ///< in the stretched space; 0: there are no gaps
   float longest_ = 0.0f;  ///< edge in a line or a sheet
 };

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where values jump, what an automatic bound of the error keeps: crossings between
+// neighbours, whatever the isovalue, and none that slips past samples.
+#include "pipeline/run_pipeline.h"
+#include "support/environment.h"
+
+#include <gtest/gtest.h>
+#include <pcl/conversions.h>
+
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+namespace {
+
+using namespace pcl_uvol;
+
+std::shared_ptr<Dataset>
+toDataset(const pcl::PointCloud<pcl::PointXYZI>& cloud)
+{
+  auto samples = std::make_shared<Dataset>();
+  pcl::toPCLPointCloud2(cloud, samples->cloud);
+  return samples;
+}
+
+/** Random samples, 4 inside of a ball and 1 elsewhere. */
+std::shared_ptr<Dataset>
+sampleBall()
+{
+  uvol_test::Random random(5);
+  pcl::PointCloud<pcl::PointXYZI> cloud;
+  for (int i = 0; i < 8000; ++i) {
+    pcl::PointXYZI point;
+    for (int axis = 0; axis < 3; ++axis)
+      point.data[axis] = static_cast<float>(2.0 * random.uniform() - 1.0);
+    point.intensity = point.getVector3fMap().norm() < 0.6f ? 4.0f : 1.0f;
+    cloud.push_back(point);
+  }
+  return toDataset(cloud);
+}
+
+/** Two cubic lattices side by side at x = 0, the right one twice as wide, as in a shock
+ * tube: edges slip through its channels. */
+std::shared_ptr<Dataset>
+sampleTube()
+{
+  pcl::PointCloud<pcl::PointXYZI> cloud;
+  const auto fill = [&](float first_x, float spacing, int layers, float value) {
+    const int across = static_cast<int>(12.0f / spacing);
+    for (int i = 0; i < layers; ++i)
+      for (int j = 0; j < across; ++j)
+        for (int k = 0; k < across; ++k) {
+          pcl::PointXYZI point;
+          point.x = first_x + spacing * static_cast<float>(i);
+          point.y = spacing * (0.5f + static_cast<float>(j));
+          point.z = spacing * (0.5f + static_cast<float>(k));
+          point.intensity = value;
+          cloud.push_back(point);
+        }
+  };
+  fill(-7.5f, 1.0f, 8, 1.2f);
+  fill(1.0f, 2.0f, 6, 1.5f);
+  return toDataset(cloud);
+}
+
+IsosurfaceResult
+extract(const std::shared_ptr<Dataset>& samples, double isovalue, bool only_known)
+{
+  IsosurfacePipelineParameters parameters;
+  parameters.isosurface.field = "intensity";
+  parameters.isosurface.isovalues = {isovalue};
+  parameters.automatic_max_error = only_known;
+  return uvol_test::runPipeline(samples, parameters);
+}
+
+std::size_t
+count(IsoSupport support, const IsosurfaceResult& result)
+{
+  std::size_t found = 0;
+  for (const PointIso& point : uvol_test::toIsopoints(result))
+    found += point.support == static_cast<std::uint8_t>(support);
+  return found;
+}
+
+TEST(KnownIsopoints, AreCrossingsOfAJumpAtAnyIsovalue)
+{
+  const auto samples = sampleBall();
+  for (const double isovalue : {1.1, 1.75, 2.5, 3.25, 3.9}) {
+    SCOPED_TRACE(isovalue);
+    const auto all = extract(samples, isovalue, false);
+    const auto known = extract(samples, isovalue, true);
+    ASSERT_GT(count(IsoSupport::Measured, all), 800u);
+    EXPECT_EQ(count(IsoSupport::Measured, all), count(IsoSupport::Measured, known));
+    EXPECT_EQ(count(IsoSupport::Rim, all), count(IsoSupport::Rim, known));
+    EXPECT_EQ(0u, count(IsoSupport::Bridged, known));
+  }
+}
+
+TEST(KnownIsopoints, DoNotSlipPastSamples)
+{
+  const auto samples = sampleTube();
+  for (const double isovalue : {1.25, 1.35, 1.45}) {
+    SCOPED_TRACE(isovalue);
+    const auto all = extract(samples, isovalue, false);
+    ASSERT_GT(count(IsoSupport::Bridged, all), 0u);
+    const auto known = uvol_test::toIsopoints(extract(samples, isovalue, true));
+    EXPECT_EQ(all.surface.cloud.width - count(IsoSupport::Bridged, all), known.size());
+    // Neighbours lie at -0.5 and at 1 or, behind the first layer, at 3.
+    for (const PointIso& point : known) {
+      EXPECT_GE(point.x, -1.5f);
+      EXPECT_LE(point.x, 3.0f);
+    }
+  }
+}
+
+} // namespace
