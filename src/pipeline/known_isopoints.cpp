@@ -74,9 +74,8 @@ KnownIsopoints::contain(const PointIso& point, const IsoEdge& edge) const
   const bool is_crossing = point.error <= point.edge_length &&
                            stretchedLength(samples_, edge, scale_) <= longest_;
   if (has(IsoSupport::Bridged, point))
-    return is_crossing ||
-           (isKnown(point) &&
-            point.error < (1.0f - rounding) * errorOnEdge(point, edge));
+    return is_crossing || (isKnown(point) &&
+                           point.error < (1.0f - rounding) * errorOnEdge(point, edge));
   return is_crossing || isKnown(point) ||
          (lies_all_around_ &&
           point.error <= (1.0f + rounding) * errorOnEdge(point, edge));

@@ -26,10 +26,10 @@ isKnown(const PointIso& point);
  * Besides those that isKnown() tells of, where samples lie all around the crossings of
  * values that jump, as at the border of a material: all that can be known is that the
  * surface lies between the two samples. Where an edge bridges a gap or slips past other
- * samples that is not enough. Where samples lie on lines or sheets the crossings between
- * neighbours of one of these: their edges are short beside the gaps, and the surface
- * does cross there. Predicted isopoints have no edge between measured
- * samples: their error must be at most half of the gap, in the stretched space. */
+ * samples that is not enough. Where samples lie on lines or sheets the crossings
+ * between neighbours of one of these: their edges are short beside the gaps, and the
+ * surface does cross there. Predicted isopoints have no edge between measured samples:
+ * their error must be at most half of the gap, in the stretched space. */
 class KnownIsopoints {
 public:
   /** \param samples between which the edges lie, which must outlive this
