@@ -2,6 +2,7 @@
 #include "isosurface/isopoints.h"
 
 #include "common/parallel.h"
+#include "isosurface/examined_isopoints.h"
 #include "isosurface/piece_isopoints.h"
 #include "isosurface/smooth_roots.h"
 #include "isosurface/spike_test.h"
@@ -204,10 +205,6 @@ mergeCoincident(const std::vector<Position>& positions,
 
 namespace {
 
-/** Isopoints that fits are asked about where none is moved to them: they tell shares
- * to 3 %, in the time that the edges of as many samples take. */
-constexpr std::size_t most_examined = 1024;
-
 /** Count of some of the linear isopoints how many fits would find in gaps or on rims.
  */
 void
@@ -217,18 +214,24 @@ examineSome(const IsopointInput& input,
             const std::vector<PointIso>& points,
             Report& report)
 {
-  const std::size_t count = std::min(points.size(), most_examined);
-  IsoEdges some_edges(count);
-  std::vector<PointIso> some(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    some_edges[i] = edges[i * points.size() / count];
-    some[i] = points[i * points.size() / count];
-  }
-  Report own;
-  smoothIsopoints(input, isovalue, some_edges, some, own);
-  report.count("examined", count);
-  report.count("examined_bridged", own.getCount("bridged"));
-  report.count("examined_rim", own.getCount("rim"));
+  ExaminedCandidates candidates;
+  for (const PointIso& point : points)
+    candidates.add(toPosition(point.data));
+  const ExaminedIsopoints examined(candidates);
+  IsoEdges some_edges;
+  std::vector<PointIso> some;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (examined.contain(toPosition(points[i].data))) {
+      some_edges.push_back(edges[i]);
+      some.push_back(points[i]);
+    }
+  StepTimer step(report, "smooth_roots", some.size());
+  fitRoots(input, isovalue, some_edges, some, step);
+  std::vector<std::uint8_t> supports;
+  supports.reserve(some.size());
+  for (const PointIso& point : some)
+    supports.push_back(point.support);
+  countExamined(supports, report);
 }
 
 } // namespace

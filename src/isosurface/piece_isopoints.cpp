@@ -2,6 +2,8 @@
 #include "isosurface/piece_isopoints.h"
 
 #include "common/parallel.h"
+#include "distributed/byte_stream.h"
+#include "isosurface/examined_isopoints.h"
 #include "isosurface/isopoints.h"
 #include "isosurface/smooth_roots.h"
 
@@ -77,7 +79,12 @@ private:
   void
   find(const IsopointInput& input, std::size_t isovalue);
 
-  /** Fit some of them; those that this does not settle become pending.
+  /** Those of one isovalue that fits are made for. */
+  std::vector<std::size_t>
+  listFitted(std::size_t isovalue) const;
+
+  /** Fit some of them; those that this does not settle become pending. Linear ones get
+   * their support from it, which take() counts.
    * \param known radii of balls around them all samples of which the piece has */
   void
   fit(const IsopointInput& input,
@@ -120,10 +127,8 @@ PieceIsopoints::PieceIsopoints(const Piece& piece,
                             threads};
   for (std::size_t i = 0; i < found_.size(); ++i) {
     find(input, i);
-    std::vector<std::size_t> all(found_[i].size());
-    std::iota(all.begin(), all.end(), std::size_t(0));
-    if (settings.interpolation != Interpolation::Linear)
-      fit(input, i, all, std::vector<float>(all.size(), 0.0f));
+    const std::vector<std::size_t> fitted = listFitted(i);
+    fit(input, i, fitted, std::vector<float>(fitted.size(), 0.0f));
   }
 }
 
@@ -155,6 +160,24 @@ PieceIsopoints::find(const IsopointInput& input, std::size_t which)
   }
 }
 
+std::vector<std::size_t>
+PieceIsopoints::listFitted(std::size_t isovalue) const
+{
+  const std::vector<GlobalIsopoint>& isopoints = found_[isovalue];
+  std::vector<std::size_t> all(isopoints.size());
+  std::iota(all.begin(), all.end(), std::size_t(0));
+  if (settings_.interpolation != Interpolation::Linear)
+    return all;
+  ExaminedCandidates candidates;
+  for (const GlobalIsopoint& isopoint : isopoints)
+    candidates.add(isopoint.linear);
+  const ExaminedIsopoints examined(candidates);
+  const auto last = std::remove_if(all.begin(), all.end(), [&](std::size_t i) {
+    return !examined.contain(isopoints[i].linear);
+  });
+  return {all.begin(), last};
+}
+
 void
 PieceIsopoints::fit(const IsopointInput& input,
                     std::size_t isovalue,
@@ -174,7 +197,10 @@ PieceIsopoints::fit(const IsopointInput& input,
       input, static_cast<float>(settings_.isovalues[isovalue]), edges, points, step);
   for (std::size_t i = 0; i < indices.size(); ++i) {
     GlobalIsopoint& isopoint = found_[isovalue][indices[i]];
-    setResult(isopoint, points[i]);
+    if (settings_.interpolation == Interpolation::Linear)
+      isopoint.support = points[i].support;
+    else
+      setResult(isopoint, points[i]);
     isopoint.outcome = static_cast<std::uint8_t>(fits[i].outcome);
     Ball ball{stretched(isopoint.linear, toPosition(settings_.scale)),
               fits[i].radius * slack};
@@ -269,6 +295,27 @@ mergeIsopoints(std::vector<GlobalIsopoint>& isopoints,
     countRoots(outcomes, supports, report);
 }
 
+/** Count the support of those linear isopoints of one isovalue that are examined, of
+ * all processes together, and forget it. */
+void
+countTogether(std::vector<GlobalIsopoint>& isopoints,
+              Communicator& communicator,
+              Report& report)
+{
+  ExaminedCandidates own, all;
+  for (const GlobalIsopoint& isopoint : isopoints)
+    own.add(isopoint.linear);
+  all.add(allGatherItems(communicator, own.list()));
+  const ExaminedIsopoints examined(all);
+  std::vector<std::uint8_t> supports;
+  for (GlobalIsopoint& isopoint : isopoints) {
+    if (examined.contain(isopoint.linear))
+      supports.push_back(isopoint.support);
+    isopoint.support = static_cast<std::uint8_t>(IsoSupport::Unknown);
+  }
+  countExamined(supports, report);
+}
+
 } // namespace
 
 PointIso
@@ -342,6 +389,15 @@ IsosurfaceStage::receive(std::size_t list,
   read(isopoints.data());
   mergeIsopoints(isopoints, parameters_.interpolation, threads, report);
   report.count("isopoints", isopoints.size());
+}
+
+std::vector<std::vector<GlobalIsopoint>>
+IsosurfaceStage::take(Communicator& communicator, Report& report) &&
+{
+  if (parameters_.interpolation == Interpolation::Linear)
+    for (std::vector<GlobalIsopoint>& isopoints : received_)
+      countTogether(isopoints, communicator, report);
+  return std::move(received_);
 }
 
 } // namespace pcl_uvol

@@ -9,6 +9,7 @@
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/point_types.h>
 #include <pcl_uvol/common/stage.h>
+#include <pcl_uvol/distributed/communicator.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 
 #include <cstddef>
@@ -111,12 +112,11 @@ public:
           unsigned threads,
           Report& report) override;
 
-  /** \brief What was received, per isovalue, ordered by edges. */
-  std::vector<std::vector<GlobalIsopoint>>&&
-  take() &&
-  {
-    return std::move(received_);
-  }
+  /** \brief What was received, per isovalue, ordered by edges. By all processes.
+   * \param report gets the counts of those linear ones of this process that are
+   * examined, see countExamined */
+  std::vector<std::vector<GlobalIsopoint>>
+  take(Communicator& communicator, Report& report) &&;
 
 private:
   IsosurfaceParameters parameters_; // as the samples are: in their unit and frame

@@ -75,6 +75,7 @@ finishIsopoints(const Isopoints& isopoints,
                                              std::move(ends.edges),
                                              parameters,
                                              sampling,
+                                             communicator,
                                              threads,
                                              std::move(report));
   part.finish(communicator, result);

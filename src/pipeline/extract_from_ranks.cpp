@@ -24,7 +24,7 @@ extractFromRanks(Samples&& samples,
   IsosurfaceStage stage(settings, unit, frame);
   const SamplingSummary sampling =
       runOnRanks(stage, std::move(samples), communicator, threads, report);
-  return {std::move(stage).take(), toInput(sampling, unit)};
+  return {std::move(stage).take(communicator, report), toInput(sampling, unit)};
 }
 
 std::vector<std::vector<GlobalIsopoint>>

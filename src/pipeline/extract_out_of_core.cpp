@@ -101,7 +101,8 @@ extractOutOfCore(PointSource& points,
   OutOfCoreIsosurface surface;
   surface.sampling = toInput(
       runOutOfCore(stage, std::move(read.samples), out_of_core, report), read.unit);
-  const auto found = std::move(stage).take();
+  SelfCommunicator alone;
+  const auto found = std::move(stage).take(alone, report);
   for (std::size_t i = 0; i < found.size(); ++i)
     for (const GlobalIsopoint& isopoint : found[i])
       surface.isopoints.push_back(toPointIso(isopoint, settings.isovalues[i]));
@@ -137,11 +138,13 @@ runPipelineOutOfCore(PointSource& points,
   report.progress = progress;
   auto surface = extractOutOfCore(points, withErrors(resolved), out_of_core, report);
   samples.cloud = std::move(surface.samples);
+  SelfCommunicator alone;
   IsosurfaceResult result = finishIsosurface(samples,
                                              std::move(surface.isopoints),
                                              std::move(surface.edges),
                                              resolved,
                                              surface.sampling,
+                                             alone,
                                              out_of_core.threads,
                                              std::move(report));
   warnOfLosses(resolved, result.surface.cloud.width, result.report);

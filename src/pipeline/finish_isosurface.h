@@ -2,6 +2,7 @@
 // From isopoints that were extracted elsewhere to a surface with all fields.
 #pragma once
 
+#include <pcl_uvol/distributed/communicator.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
 #include <pcl/point_cloud.h>
@@ -16,6 +17,8 @@ namespace pcl_uvol {
  * its low corner, and isopoints outside of it are left out
  * \param parameters with the field and the scale that were taken
  * \param sampling of all samples, if it is known
+ * \param communicator of those among which the isopoints of one surface lie: they are
+ * warned of together, by all processes
  * \param report continued
  * \param isopoints that were extracted
  * \param edges one per isopoint
@@ -26,6 +29,7 @@ finishIsosurface(const Dataset& samples,
                  IsoEdges&& edges,
                  const IsosurfacePipelineParameters& parameters,
                  const std::optional<SamplingSummary>& sampling,
+                 Communicator& communicator,
                  unsigned threads,
                  Report&& report);
 

@@ -64,6 +64,15 @@ findGrounds(const Report& linear_extraction)
   return grounds;
 }
 
+SurfaceGrounds
+addTogether(const SurfaceGrounds& own, Communicator& communicator)
+{
+  std::vector<std::uint64_t> counts{
+      own.known, own.at_border, own.beside_gaps, own.guessed};
+  communicator.allReduce(counts);
+  return {counts[0], counts[1], counts[2], counts[3]};
+}
+
 std::string
 tellGuesses(const SurfaceGrounds& grounds,
             const std::optional<SamplingSummary>& sampling,

@@ -6,6 +6,7 @@
 #include "neighbors/periodic_box.h"
 #include "pipeline/isopoint_choice.h"
 #include <pcl_uvol/common/export.h>
+#include <pcl_uvol/distributed/communicator.h>
 #include <pcl_uvol/neighbors/neighbor_graph.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
@@ -41,6 +42,10 @@ findGrounds(const pcl::PointCloud<PointIso>& isopoints,
  * its counts. */
 PCL_UVOL_EXPORTS SurfaceGrounds
 findGrounds(const Report& linear_extraction);
+
+/** \brief What the isopoints of all processes rest on. By all of them. */
+SurfaceGrounds
+addTogether(const SurfaceGrounds& own, Communicator& communicator);
 
 /** \brief A sentence where most isopoints do not rest on samples around them; else
  * empty.

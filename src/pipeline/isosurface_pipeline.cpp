@@ -161,6 +161,7 @@ finish(const Dataset& samples,
        const IsosurfacePipelineParameters& parameters,
        const detail::FilledGaps* gaps,
        const std::optional<SamplingSummary>& sampling,
+       Communicator& communicator,
        unsigned threads,
        Report&& report)
 {
@@ -179,14 +180,13 @@ finish(const Dataset& samples,
   if (!parameters.mesh) // which has counted vertices that are not on caps
     countSupports(isopoints, report);
   const SurfaceGrounds examined = findGrounds(report);
-  warnOfGuesses(examined.known > 0 ? examined
-                                   : findGrounds(isopoints,
-                                                 choice,
-                                                 found.is_on_cap,
-                                                 PeriodicBox{{}, sidesOf(parameters)}),
-                parameters,
-                sampling,
-                report);
+  const SurfaceGrounds own = examined.known > 0
+                                 ? examined
+                                 : findGrounds(isopoints,
+                                               choice,
+                                               found.is_on_cap,
+                                               PeriodicBox{{}, sidesOf(parameters)});
+  warnOfGuesses(addTogether(own, communicator), parameters, sampling, report);
   report.setCount("isopoints", isopoints.size());
   IsosurfaceResult result;
   result.isopoints = countPerIsovalue(isopoints, parameters.isosurface.isovalues);
@@ -219,14 +219,21 @@ finishIsosurface(const Dataset& samples,
                  IsoEdges&& edges,
                  const IsosurfacePipelineParameters& parameters,
                  const std::optional<SamplingSummary>& sampling,
+                 Communicator& communicator,
                  unsigned threads,
                  Report&& report)
 {
   SurfaceTriangles found;
   found.vertices = std::move(isopoints);
   found.edges = std::move(edges);
-  return finish(
-      samples, found, parameters, nullptr, sampling, threads, std::move(report));
+  return finish(samples,
+                found,
+                parameters,
+                nullptr,
+                sampling,
+                communicator,
+                threads,
+                std::move(report));
 }
 
 pcl::Indices
@@ -341,8 +348,15 @@ IsosurfacePipeline::runOnSamples(const IsosurfacePipelineParameters& parameters)
     const StepTimer timer(report_, "sampling");
     sampling = summarizeSampling(*extraction_.getSamples(), threads_);
   }
-  IsosurfaceResult result = finish(
-      *samples_, found, parameters, gaps_, sampling, threads_, std::move(report_));
+  SelfCommunicator alone;
+  IsosurfaceResult result = finish(*samples_,
+                                   found,
+                                   parameters,
+                                   gaps_,
+                                   sampling,
+                                   alone,
+                                   threads_,
+                                   std::move(report_));
   warnOfLosses(parameters, result.surface.cloud.width, result.report);
   if (parameters.mesh) {
     setField(result.surface, "piece", found.piece_of);

@@ -37,12 +37,14 @@ extractMembershipSurface(const Dataset& samples,
   pcl::PointCloud<PointIso> isopoints;
   extraction.extract(isopoints);
   report.merge(extraction.getReport());
+  SelfCommunicator alone;
   // Without the field, whose value is the same everywhere.
   auto result = finishIsosurface(turned,
                                  std::move(isopoints),
                                  IsoEdges(extraction.getEdges()),
                                  parameters,
                                  std::nullopt,
+                                 alone,
                                  threads,
                                  std::move(report));
   report = std::move(result.report);

@@ -140,11 +140,13 @@ extractSnapshot(const Dataset& samples,
                    isopoints,
                    edges,
                    report);
+  SelfCommunicator alone;
   return finishIsosurface(samples,
                           std::move(isopoints),
                           std::move(edges),
                           how,
                           std::nullopt,
+                          alone,
                           threads,
                           std::move(report))
       .surface;

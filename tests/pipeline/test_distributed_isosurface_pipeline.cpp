@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The pipeline of several ranks gives what that of one process gives.
 #include "common/records.h"
+#include "distributed/merge_reports.h"
+#include "pipeline/run_pipeline.h"
 #include "support/clouds.h"
+#include "support/environment.h"
 #include "support/thread_ranks.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
@@ -109,6 +112,59 @@ TEST(DistributedIsosurfacePipeline, WarnsOfWhatAllCountTogether)
   const auto expected = warningsOf(1);
   EXPECT_EQ(2u, expected.size());
   EXPECT_EQ(expected, warningsOf(3));
+}
+
+/** Lines of 200 samples through a cube, at random. */
+pcl::PointCloud<pcl::PointXYZI>
+makeLines(std::size_t count)
+{
+  uvol_test::Random random(11);
+  const auto choosePlace = [&] {
+    const auto x = static_cast<float>(random.uniform()),
+               y = static_cast<float>(random.uniform()),
+               z = static_cast<float>(random.uniform());
+    return Eigen::Array3f(x, y, z);
+  };
+  pcl::PointCloud<pcl::PointXYZI> lines;
+  for (std::size_t line = 0; line < count; ++line) {
+    const Eigen::Array3f begin = choosePlace(), end = choosePlace();
+    for (int i = 0; i < 200; ++i) {
+      const Eigen::Array3f at = begin + (end - begin) * static_cast<float>(i) / 200.0f;
+      lines.push_back({at[0], at[1], at[2], (9.0f * at).sin().sum()});
+    }
+  }
+  return lines;
+}
+
+/** Ranks whose parts of the surface lie between more and between fewer lines say what
+ * one process says of all of it. */
+TEST(DistributedIsosurfacePipeline, TellsOfGuessesAsOneProcessDoes)
+{
+  const auto lines = makeLines(120);
+  for (const bool is_linear : {true, false}) {
+    IsosurfacePipelineParameters parameters = makeParameters();
+    parameters.isosurface.isovalues = {0.0, 0.3};
+    if (is_linear)
+      parameters.isosurface.interpolation = pcl_uvol::Interpolation::Linear;
+    parameters.normals = pcl_uvol::NormalMethod::Edge;
+    const auto expected =
+        uvol_test::runPipeline(takePart(lines, 0, lines.size()), parameters).report;
+    EXPECT_EQ(is_linear ? 2048u : 0u, expected.getCount("examined"));
+    ASSERT_EQ(1u, expected.warnings.size());
+    EXPECT_NE(std::string::npos, expected.warnings[0].find("between lines"));
+    uvol_test::runRanks(3, [&](pcl_uvol::Communicator& communicator) {
+      const std::size_t rank = communicator.rank(), size = lines.size();
+      DistributedIsosurfacePipeline pipeline(communicator);
+      pipeline.setInput(takePart(lines, rank * size / 3, (rank + 1) * size / 3));
+      pipeline.setParameters(parameters);
+      pipeline.setGathered(is_linear);
+      const auto found = pcl_uvol::mergeReports(pipeline.run().report, communicator);
+      EXPECT_EQ(expected.warnings, found.warnings);
+      for (const char* const name :
+           {"examined", "examined_bridged", "examined_rim", "bridged", "rim"})
+        EXPECT_EQ(expected.getCount(name), found.getCount(name)) << name;
+    });
+  }
 }
 
 TEST(DistributedIsosurfacePipeline, RefusesWhatNeedsAllSamples)

@@ -115,6 +115,9 @@ expectEqual(const Alone& alone,
                            "linear_step",
                            "bridged",
                            "rim",
+                           "examined",
+                           "examined_bridged",
+                           "examined_rim",
                            "duplicates",
                            "conflicting_duplicates"})
     EXPECT_EQ(alone.report.getCount(name), together.report.getCount(name)) << name;

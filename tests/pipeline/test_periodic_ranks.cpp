@@ -98,7 +98,10 @@ expectSurfaceOfOne(const Samples& samples,
                                    "duplicates",
                                    "isopoints",
                                    "bridged",
-                                   "rim"})
+                                   "rim",
+                                   "examined",
+                                   "examined_bridged",
+                                   "examined_rim"})
       EXPECT_EQ(alone.report.getCount(name), found.report.getCount(name))
           << name << ' ' << ranks;
     EXPECT_EQ(alone.report.warnings, found.report.warnings) << ranks;
@@ -123,6 +126,9 @@ TEST(PeriodicRanks, SeeAcrossTheFacesOfSomeAxes)
     parameters.periodic = sides;
     parameters.isosurface.scale = {1.0f, 0.7f, 1.5f};
     EXPECT_GT(expectSurfaceOfOne(samples, parameters).surface.cloud.width, 500u);
+    parameters.isosurface.interpolation = Interpolation::Linear;
+    EXPECT_EQ(1024u,
+              expectSurfaceOfOne(samples, parameters).report.getCount("examined"));
   }
 }
 

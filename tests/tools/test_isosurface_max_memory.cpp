@@ -63,6 +63,38 @@ TEST_F(MaxMemory, WritesTheSameFile)
   }
 }
 
+/** Pieces see parts of the lines, and of the isopoints that are examined. */
+TEST_F(MaxMemory, TellsOfGuessesAsMemoryDoes)
+{
+  const std::string cloud = folder_ / "cloud.pcd";
+  const auto made = uvol_test::runCommand("uvol_generate " + cloud +
+                                          " -field torus -n 60000 -samples holes");
+  ASSERT_EQ(0, made.exit_code) << made.err;
+  for (const std::string interpolation : {"linear", "fit"}) {
+    const auto extract = [&](const std::string& options) {
+      return uvol_test::runCommand(
+          "uvol_isosurface " + cloud + ' ' + out_ + " -field torus -iso 0,0.05 -json" +
+          " -normals edge -interpolation " + interpolation + options);
+    };
+    const auto expected = extract(""), found = extract(" -max-memory 124M");
+    EXPECT_TRUE(std::regex_search(found.out, std::regex("\"pieces\": [2-9]")))
+        << found.out;
+    const auto listGuesses = [](const std::string& report) {
+      const std::regex guess(
+          "\"(examined|bridged|rim)[a-z_]*\": [0-9]+|[0-9]+ % of the isopoints [^\"]*");
+      std::string guesses;
+      for (std::sregex_iterator i(report.begin(), report.end(), guess), end; i != end;
+           ++i)
+        guesses += i->str() + '\n';
+      return guesses;
+    };
+    const std::string guesses = listGuesses(expected.out);
+    EXPECT_NE(std::string::npos, guesses.find("rim\": ")) << expected.out;
+    EXPECT_NE(std::string::npos, guesses.find("between lines")) << expected.out;
+    EXPECT_EQ(guesses, listGuesses(found.out));
+  }
+}
+
 /** Megabytes behind a word of the report's line on memory. */
 double
 megabytesBehind(const std::string& word, const std::string& report)

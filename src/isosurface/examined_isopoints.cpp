@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "isosurface/examined_isopoints.h"
+
+#include <pcl_uvol/common/point_types.h>
+
+#include <algorithm>
+
+namespace pcl_uvol {
+
+namespace {
+
+bool
+isBefore(const Position& a, const Position& b)
+{
+  return lessAlong(0, a, b);
+}
+
+} // namespace
+
+void
+ExaminedCandidates::add(const std::vector<Position>& roots)
+{
+  for (const Position& root : roots)
+    add(root);
+}
+
+std::vector<Position>
+ExaminedCandidates::list() const
+{
+  std::vector<Position> roots;
+  for (const Sketch<3>::Item& item : sketch_.getItems())
+    roots.push_back({{static_cast<float>(item[0]),
+                      static_cast<float>(item[1]),
+                      static_cast<float>(item[2])}});
+  return roots;
+}
+
+ExaminedIsopoints::ExaminedIsopoints(const ExaminedCandidates& candidates)
+    : roots_(candidates.list())
+{
+  std::sort(roots_.begin(), roots_.end(), isBefore);
+}
+
+bool
+ExaminedIsopoints::contain(const Position& root) const
+{
+  return std::binary_search(roots_.begin(), roots_.end(), root, isBefore);
+}
+
+void
+countExamined(const std::vector<std::uint8_t>& supports, Report& report)
+{
+  const auto count = [&](const char* name, IsoSupport support) {
+    report.count(
+        name,
+        static_cast<std::uint64_t>(std::count(
+            supports.begin(), supports.end(), static_cast<std::uint8_t>(support))));
+  };
+  report.count("examined", supports.size());
+  count("examined_bridged", IsoSupport::Bridged);
+  count("examined_rim", IsoSupport::Rim);
+}
+
+} // namespace pcl_uvol
