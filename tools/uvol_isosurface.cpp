@@ -2,6 +2,7 @@
 // The main job: a file of scattered samples in, an oriented isosurface out.
 #include "common/memory.h"
 #include "common/numbers.h"
+#include "common/sample_checks.h"
 #include "shared/options.h"
 #include "shared/point_files.h"
 #include "shared/progress_bar.h"
@@ -98,7 +99,7 @@ struct Job {
         memory ? runInMemory(options, arguments, *memory, report, figures)
                : runFromDisk(options, arguments, report);
     report.merge(result.report);
-    uvol_tools::warnOfConflicts(report.getCount("samples"), 1, report);
+    pcl_uvol::warnOfConflicts(report.getCount("samples"), 1, report);
     arguments.picture.addColor(options, result.surface, report);
 
     const auto& isovalues = arguments.parameters.isosurface.isovalues;

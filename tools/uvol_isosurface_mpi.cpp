@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The main job by many processes: each reads a part of the samples, and writes a part
 // of the isosurface.
+#include "common/sample_checks.h"
 #include "distributed/merge_reports.h"
 #include "distributed/periodic_ranks.h"
 #include "io/rank_files.h"
@@ -116,7 +117,7 @@ load(Arguments& arguments,
   std::string& field = arguments.parameters.isosurface.field;
   if (!field.empty())
     field = pcl_uvol::addDerivedField(part, field, options, report);
-  uvol_tools::refuseNames(part, field);
+  pcl_uvol::refuseNames(part, field);
   return part;
 }
 
@@ -231,7 +232,7 @@ run(int argc, char** argv, pcl_uvol::Communicator& communicator)
       mergeReports(report,
                    communicator,
                    {"bytes_redistributed", "bytes_exchanged", "bytes_of_fields"});
-  uvol_tools::warnOfConflicts(together.getCount("samples"), 1, together);
+  pcl_uvol::warnOfConflicts(together.getCount("samples"), 1, together);
   uvol_tools::Facts facts{{"input", joined(arguments.inputs)},
                           {"output", arguments.output},
                           {"processes", static_cast<double>(communicator.size())}};

@@ -3,6 +3,7 @@
 #include "charts/line_plot.h"
 #include "charts/picture_file.h"
 #include "common/records.h"
+#include "common/sample_checks.h"
 #include "common/scalar_field.h"
 #include "expressions/memory_need.h"
 #include "io/table_file.h"
@@ -352,7 +353,7 @@ run(int argc, char** argv)
   const auto sides = arguments.periodic.findSides(dataset, report);
   for (std::string* field : {&parameters.field, &parameters.initial.field_name}) {
     uvol_tools::addField(dataset, *field, options, report, sides);
-    uvol_tools::refuseNames(dataset, *field);
+    pcl_uvol::refuseNames(dataset, *field);
   }
   uvol_tools::Facts of_scale;
   const auto stretch = arguments.scale.resolve(
@@ -413,7 +414,7 @@ run(int argc, char** argv)
   evolution.evolve(result.cloud);
   boxed.dropImages(result);
   report.merge(evolution.getReport());
-  uvol_tools::warnOfConflicts(report.getCount("samples"), 1, report);
+  pcl_uvol::warnOfConflicts(report.getCount("samples"), 1, report);
   const pcl_uvol::LevelSetSummary& summary = evolution.getSummary();
 
   pcl_uvol::SaveOptions save;

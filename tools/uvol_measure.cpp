@@ -4,6 +4,7 @@
 #include "charts/line_plot.h"
 #include "charts/picture_file.h"
 #include "common/printable.h"
+#include "common/sample_checks.h"
 #include "common/scalar_field.h"
 #include "pipeline/memory_need.h"
 #include "shared/isosurface_options.h"
@@ -175,7 +176,7 @@ extractSurface(const Options& options,
   arguments.resolveSpacing(*samples);
   uvol_tools::addField(
       *samples, arguments.parameters.isosurface.field, options, report);
-  uvol_tools::refuseNames(*samples, arguments.parameters.isosurface.field);
+  pcl_uvol::refuseNames(*samples, arguments.parameters.isosurface.field);
   memory.checkCloud(
       *samples, [&](double points, double step, pcl_uvol::MemoryForecast& forecast) {
         pcl_uvol::addMemoryNeed(arguments.parameters, points, step, {}, 0.0, forecast);
@@ -187,7 +188,7 @@ extractSurface(const Options& options,
   pipeline.setProgressCallback(report.progress);
   pcl_uvol::IsosurfaceResult result = pipeline.run();
   report.merge(result.report);
-  uvol_tools::warnOfConflicts(report.getCount("samples"), 1, report);
+  pcl_uvol::warnOfConflicts(report.getCount("samples"), 1, report);
   if (result.triangles.empty())
     throw pcl_uvol::InvalidArgument(
         "There is no isosurface to measure: " + result.field +

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The field between scattered samples: at points, along lines, in planes and in grids,
 // and how sure it is.
+#include "common/sample_checks.h"
 #include "interpolation/answer_summary.h"
 #include "interpolation/memory_need.h"
 #include "io/memory_need.h"
@@ -291,9 +292,9 @@ run(int argc, char** argv, uvol_tools::SeriesStep* step)
   if (kind != Kind::None || arguments.variogram.isAskedFor()) {
     const FieldInterpolator interpolator(
         view, indices, parameters, options.threads(), report);
-    uvol_tools::warnOfConflicts(samples.cloud.width - report.getCount("duplicates"),
-                                parameters.fields.size(),
-                                report);
+    pcl_uvol::warnOfConflicts(samples.cloud.width - report.getCount("duplicates"),
+                              parameters.fields.size(),
+                              report);
     const bool is_stretched = (parameters.scale != 1.0f).any();
     for (const Fact& fact : arguments.variogram.write(interpolator, is_stretched))
       facts.push_back(fact);

@@ -127,7 +127,7 @@ class Interpolator:
         wanted = [field] if self._is_single else _names(field)
         names = []
         for name in wanted:
-            samples, found = samples._with_field(name, threads, progress)
+            samples, found = samples._with_numbers(name, threads, progress)
             names += [found] if found else []
         self._placed = samples  # with expressions, and images behind the others
         if not any(self._sides):

@@ -313,6 +313,12 @@ class Samples(Drawable, Points):
         _report.tell(messages)
         return samples, name
 
+    def _with_numbers(self, expression, threads, progress, sides=(0.0, 0.0, 0.0)):
+        """The same of a field that stages take: names are refused."""
+        samples, name = self._with_field(expression, threads, progress, sides)
+        samples._dataset.refuse_names(name)
+        return samples, name
+
     def _find_box(self, periodic):
         """The sides of the box that samples repeat in; 0 for none."""
         if isinstance(periodic, str):

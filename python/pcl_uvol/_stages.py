@@ -102,10 +102,10 @@ def level_set(points, fields=None, *, iso, field="", mu=None, scale=(1.0, 1.0, 1
     if any(sides) and any(stretch.rotation):
         raise ValueError("periodic goes without rotate and a scale of nine numbers: the sides of the box lie along x, y "
                          "and z.")
-    samples, name = samples._with_field(field, threads, progress, sides)
+    samples, name = samples._with_numbers(field, threads, progress, sides)
     initial = {}
     if isinstance(start, str):
-        samples, start_name = samples._with_field(start, threads, progress, sides)
+        samples, start_name = samples._with_numbers(start, threads, progress, sides)
         initial = {"kind": "field", "field": start_name}
     elif start is not None:
         initial = _parameters.mapping(start, "start")
@@ -553,7 +553,7 @@ def project(points, fields=None, *, attributes, labels=None, standardized=True, 
 def _with_attributes(samples, attributes, threads, progress):
     names = []
     for attribute in _parameters.names(attributes, "attributes", "fields or expressions"):
-        samples, name = samples._with_field(attribute, threads, progress)
+        samples, name = samples._with_numbers(attribute, threads, progress)
         names.append(name)
     return samples, names
 

@@ -312,7 +312,7 @@ class Extractor:
         ('r', 'a')
         """
         sides = self.samples._find_box(periodic)
-        samples, field = self.samples._with_field(field, threads, progress, sides)
+        samples, field = self.samples._with_numbers(field, threads, progress, sides)
         fill_gaps = _parameters.flag(fill_gaps, "fill_gaps")
         if scale is None:
             scale = "auto" if fill_gaps else (1.0, 1.0, 1.0)

@@ -412,6 +412,52 @@ def test_names_reach_isopoints():
     assert all((surface["side"] == "west") == (surface.points[:, 0] < 3.5))
 
 
+@pytest.mark.parametrize("use", [
+    lambda samples: uvol.isosurface(samples, field="side", iso=0.5),
+    lambda samples: uvol.isosurface(samples, field="side", iso=0.5, scale="auto"),
+    lambda samples: uvol.level_set(samples, field="side", iso=0.5),
+    lambda samples: uvol.level_set(samples, field="r", iso=2.5, start="side"),
+    lambda samples: uvol.Interpolator(samples, field=["r", "side"]),
+    lambda samples: uvol.cluster(samples, attributes=["r", "side"]),
+    lambda samples: uvol.project(samples, attributes=["r", "side", "r"]),
+    lambda samples: samples.outer_layer(0.0, "side"),
+])
+def test_names_are_no_values(use):
+    points = np.random.default_rng(1).random((200, 3))
+    samples = uvol.Samples(points, {"r": points[:, 0], "side": np.where(points[:, 0] < 0.5, "west", "east")})
+    with pytest.raises(ValueError, match="'side' holds names, and a field of numbers is needed"):
+        use(samples)
+    assert samples.compute("side") is samples
+
+
+@pytest.mark.parametrize("use", [
+    lambda samples: uvol.isosurface(samples, field="r", iso=0.5).report,
+    lambda samples: uvol.isosurface(samples, field="r", iso=[0.4, 0.5], smooth=True).report,
+    lambda samples: uvol.isosurface(samples, field="r", iso=0.5, mesh=True).report,
+    lambda samples: uvol.level_set(samples, field="r", iso=0.5, max_steps=3).report,
+    lambda samples: uvol.Interpolator(samples, field=["r", "day"])._core.report,
+])
+def test_samples_that_contradict_each_other_are_told_of(use, recwarn):
+    points = np.random.default_rng(1).random((500, 3))
+    fields = {"r": np.r_[points[:, 0], points[:, 0] + 0.1], "day": np.repeat([1, 2], 500)}
+    samples = uvol.Samples(np.r_[points, points], fields)
+    told = "At 100 % of the 500 places of samples several lie whose values differ"
+    assert [warning.startswith(told) for warning in use(samples)["warnings"]].count(True) == 1
+    assert [str(warning.message).startswith(told) for warning in recwarn].count(True) == 1
+    recwarn.clear()
+    use(samples.where("day = 1"))
+    assert not any("values differ" in str(warning.message) for warning in recwarn)
+
+
+def test_an_extractor_tells_of_contradictions_each_time(ball):
+    points, fields = ball
+    twice = uvol.Samples(np.r_[points, points], {"r": np.r_[fields["r"], fields["r"] + 0.01]})
+    extractor = uvol.Extractor(twice)
+    for iso in (0.3, 0.4):
+        with pytest.warns(uvol.ResultWarning, match="of the 4000 places of samples several lie"):
+            extractor.extract(iso=iso)
+
+
 def test_names_in_tables():
     pandas = pytest.importorskip("pandas")
     frame = pandas.DataFrame({"x": [0.0, 1.0], "y": 0.0, "z": 0.0, "hole": pandas.Categorical(["b", "a"])})

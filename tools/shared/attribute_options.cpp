@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shared/attribute_options.h"
 
+#include "common/sample_checks.h"
 #include "common/scalar_field.h"
 #include "expressions/memory_need.h"
 #include "shared/point_files.h"
@@ -55,7 +56,7 @@ AttributeOptions::addFields(const Options& options,
   names_ = parseNames("attributes", text_);
   for (std::string& name : names_) {
     addField(dataset, name, options, report);
-    refuseNames(dataset, name);
+    pcl_uvol::refuseNames(dataset, name);
   }
 }
 

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <sstream>
 
 namespace uvol_tools {
@@ -96,15 +95,6 @@ loadPoints(const std::string& path,
   return dataset;
 }
 
-void
-refuseNames(const pcl_uvol::Dataset& samples, const std::string& field)
-{
-  if (samples.labels.count(field) > 0)
-    throw pcl_uvol::InvalidArgument(
-        "The field " + pcl_uvol::quoteText(field) +
-        " holds names, and a field of numbers is needed: -where chooses among names.");
-}
-
 namespace {
 
 void
@@ -137,23 +127,6 @@ addField(pcl_uvol::Dataset& points,
          pcl_uvol::Report& report)
 {
   resolveField(points, name, {options.threads(), because, {}}, report);
-}
-
-void
-warnOfConflicts(std::uint64_t samples, std::size_t fields, pcl_uvol::Report& report)
-{
-  constexpr double most_unnoticed = 0.03;
-  const double share =
-      static_cast<double>(report.getCount("conflicting_duplicates")) /
-      static_cast<double>(std::max<std::uint64_t>(samples * fields, 1));
-  if (share <= most_unnoticed)
-    return;
-  std::ostringstream percent;
-  percent << std::round(100.0 * share);
-  report.warnings.push_back(
-      "At " + percent.str() + " % of the " + std::to_string(samples) +
-      " places of samples several lie whose values differ, and their lower median is "
-      "taken: -where chooses among them, as in -where \"experiment=1\".");
 }
 
 void

@@ -52,11 +52,6 @@ loadPoints(const std::string& path,
            const std::string& where = "",
            unsigned threads = 0);
 
-/** \brief Names have no values between them.
- * \throws InvalidArgument for a column of names */
-void
-refuseNames(const pcl_uvol::Dataset& samples, const std::string& field);
-
 /** \brief Make sure that samples have the field that an option names, see
  * addDerivedField.
  * \param name becomes what stages call it; "" stays ""
@@ -76,14 +71,6 @@ addField(pcl_uvol::Dataset& points,
          const std::string& because,
          const Options& options,
          pcl_uvol::Report& report);
-
-/** \brief Warn where more than a few of the places of samples have several values, as
- * those of repeated experiments do.
- * \param samples places
- * \param fields that were counted together
- * \param report has the count "conflicting_duplicates" */
-void
-warnOfConflicts(std::uint64_t samples, std::size_t fields, pcl_uvol::Report& report);
 
 /** \brief Warn of columns of names that a file has no place for. */
 void

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "uvol_isosurface/pipeline_run.h"
 
+#include "common/sample_checks.h"
 #include "expressions/derived_source.h"
 #include "io/point_stream.h"
 #include "pipeline/extract_out_of_core.h"
@@ -124,7 +125,7 @@ runFromDisk(const Options& options, const PipelineOptions& arguments, Report& re
   pcl_uvol::IsosurfacePipelineParameters parameters = arguments.parameters;
   pcl_uvol::DerivedSource points(file, parameters.isosurface.field, options.threads());
   parameters.isosurface.field = points.getField();
-  refuseNames(points.getHeader(), parameters.isosurface.field);
+  pcl_uvol::refuseNames(points.getHeader(), parameters.isosurface.field);
   checkOutput(arguments, points.getHeader());
   report.warnings = points.getHeader().notes;
   report.count("points", points.size());

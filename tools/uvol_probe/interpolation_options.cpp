@@ -3,6 +3,7 @@
 
 #include "common/printable.h"
 #include "common/records.h"
+#include "common/sample_checks.h"
 #include "common/scalar_field.h"
 #include "common/scalar_names.h"
 #include "expressions/memory_need.h"
@@ -178,7 +179,7 @@ InterpolationOptions::resolve(const Options& options,
     parameters.fields = parseNames("field", fields_);
   for (std::string& field : parameters.fields) {
     addField(samples, field, options, report);
-    refuseNames(samples, field);
+    pcl_uvol::refuseNames(samples, field);
   }
   // The first one of several fields tells how distances are measured.
   const auto stretch = scale_.resolve(pcl_uvol::viewOf(samples.cloud),

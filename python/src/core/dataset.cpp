@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Points with their fields, in memory that numpy looks into.
 #include "common/records.h"
+#include "common/sample_checks.h"
 #include "common/scalar_field.h"
 #include "core/bindings.h"
 #include "core/large_memory.h"
@@ -184,6 +185,7 @@ withOuterLayer(const DatasetPtr& dataset,
                unsigned threads,
                const py::object& progress)
 {
+  refuseNames(*dataset, field);
   auto result = std::make_shared<Dataset>(*dataset);
   Report report;
   runInterruptibly(progress, [&](const ProgressCallback& callback) {
@@ -344,6 +346,7 @@ bindDataset(py::module_& module)
                                });
                              })
       .def("set_labels", &setLabels)
+      .def("refuse_names", &refuseNames)
       .def("with_field", &withField)
       .def("with_density", &withDensity)
       .def("with_outer_layer", &withOuterLayer)

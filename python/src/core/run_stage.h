@@ -4,6 +4,7 @@
 #pragma once
 
 #include "common/records.h"
+#include "common/sample_checks.h"
 #include "shared/convert.h"
 #include "shared/interruptible.h"
 
@@ -43,7 +44,9 @@ runStage(StageT& stage,
     stage.setProgressCallback(callback);
     work();
   });
-  pybind11::dict report = toDict(stage.getReport());
+  Report told = stage.getReport();
+  warnOfConflicts(told.getCount("samples"), 1, told);
+  pybind11::dict report = toDict(told);
   report["parameters"] = toText(taken);
   return report;
 }

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What all who hand samples to a stage, tools and Python, refuse and warn of.
+#pragma once
+
+#include <pcl_uvol/common/dataset.h>
+#include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/stage.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace pcl_uvol {
+
+/** \brief Names have no values between them.
+ * \throws InvalidArgument for a column of names */
+PCL_UVOL_EXPORTS void
+refuseNames(const Dataset& samples, const std::string& field);
+
+/** \brief Warn where more than a few of the places of samples have several values, as
+ * those of repeated experiments do.
+ * \param samples places
+ * \param fields that were counted together
+ * \param report has the count "conflicting_duplicates" */
+PCL_UVOL_EXPORTS void
+warnOfConflicts(std::uint64_t samples, std::size_t fields, Report& report);
+
+} // namespace pcl_uvol
