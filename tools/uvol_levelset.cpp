@@ -383,7 +383,8 @@ run(int argc, char** argv)
       forecastMemory(
           parameters,
           has_snapshots,
-          pcl_uvol::estimateSurfaces(view, at_start, options.threads()).front()));
+          pcl_uvol::allowForDetail(
+              pcl_uvol::estimateSurfaces(view, at_start, options.threads()).front())));
   const pcl_uvol::SamplingSummary sampling =
       pcl_uvol::summarizeSampling(view,
                                   listAll(view.count),

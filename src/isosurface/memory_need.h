@@ -33,9 +33,19 @@ estimateSurfaces(const CloudView& cloud,
                  const IsosurfaceParameters& parameters,
                  unsigned threads);
 
+/** \brief A size that forecasts count with: surfaces of measured and simulated data
+ * have finer detail than thinned clouds tell. */
+PCL_UVOL_EXPORTS SurfaceSize
+allowForDetail(const SurfaceSize& estimated);
+
+/** \brief Bytes that an IsosurfaceExtraction keeps for the next isovalue: the tree, and
+ * the values in its order. */
+PCL_UVOL_EXPORTS double
+extractionBytes(double samples);
+
 /** \brief The memory of IsosurfaceExtraction besides the cloud: 52 to 68 bytes per
  * sample, and per isopoint 76 that remain, as many again while they are joined, and 40
- * for their edges.
+ * for their edges. What it keeps does not count as kept.
  * \param surfaces one per isovalue */
 PCL_UVOL_EXPORTS MemoryNeed
 isosurfaceNeed(double samples, const std::vector<SurfaceSize>& surfaces);

@@ -26,14 +26,20 @@ stencilBytes(const LevelSetParameters& parameters)
   return k * (index_bytes + rows * sizeof(std::int16_t)) + (rows + 3.0) * float_bytes;
 }
 
+/** The bytes of a centre in the evolver: nine numbers, three more for the normals of
+ * the linear scheme. */
+double
+evolverBytes(const LevelSetParameters& parameters)
+{
+  return (parameters.scheme == FitScheme::Linear ? 12.0 : 9.0) * float_bytes;
+}
+
 /** The bytes of a centre: its index and distance; target and trust of the data; phi and
- * rate; and nine numbers of the evolver, three more for the normals of the linear
- * scheme. */
+ * rate; and those of the evolver. */
 double
 centerBytes(const LevelSetParameters& parameters)
 {
-  const double of_evolver = parameters.scheme == FitScheme::Linear ? 12.0 : 9.0;
-  return index_bytes + (1.0 + 2.0 + 2.0 + of_evolver) * float_bytes;
+  return index_bytes + (1.0 + 2.0 + 2.0) * float_bytes + evolverBytes(parameters);
 }
 
 /** The bytes of a neighbour of centres that is none: its index, the centre beside it,
@@ -69,8 +75,13 @@ levelSetNeed(double samples,
   forecast.run({nodeRangesBytes(samples), 0.0});
   forecast.hold((stencilBytes(parameters) + centerBytes(parameters)) * centers +
                 other_bytes * others);
-  // A band around a patch tells what a given weight leaves of the noise, twice.
-  if (parameters.mu)
+  // Weights are tried by a second evolver, on data of its own; of a given one a band
+  // around a patch tells what it leaves of the noise, twice.
+  if (!parameters.mu)
+    forecast.run({(evolverBytes(parameters) + 4.0 * float_bytes) * centers +
+                      3.0 * float_bytes * others,
+                  0.0});
+  else
     forecast.run({(stencilBytes(parameters) + 2.0 * centerBytes(parameters)) * centers *
                       std::min(1.0, level_set.patch_samples / surface.crossing),
                   0.0});

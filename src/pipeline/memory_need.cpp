@@ -64,6 +64,7 @@ addMemoryNeed(const IsosurfacePipelineParameters& parameters,
               MemoryForecast& forecast)
 {
   surfaces.resize(parameters.isosurface.isovalues.size());
+  std::transform(surfaces.begin(), surfaces.end(), surfaces.begin(), allowForDetail);
   if ((parameters.periodic > 0.0).any()) {
     points *= imagesFactor(parameters, points);
     forecast.hold(point_step * points); // the samples with images
@@ -78,8 +79,6 @@ addMemoryNeed(const IsosurfacePipelineParameters& parameters,
     addLevelSets(parameters.level_set, surfaces, points, forecast);
   else
     forecast.run(isosurfaceNeed(points, surfaces));
-  if (parameters.validation.folds > 0) // beside what the whole surface keeps
-    forecast.run(isosurfaceNeed(points, surfaces));
   double isopoints = 0.0, largest = 0.0;
   for (const SurfaceSize& surface : surfaces) {
     isopoints += surface.isopoints;
@@ -87,6 +86,10 @@ addMemoryNeed(const IsosurfacePipelineParameters& parameters,
   }
   if (parameters.mesh)
     forecast.run({mesh_bytes_per_isopoint * largest, 0.0});
+  else // the extraction stays with the pipeline
+    forecast.hold(extractionBytes(points) + sizeof(IsoEdge) * isopoints);
+  if (parameters.validation.folds > 0) // beside what the whole surface keeps
+    forecast.run(isosurfaceNeed(points, surfaces));
   // Normals of one surface after the other, beside a copy of all where some are
   // missing.
   const auto normals =

@@ -121,6 +121,10 @@ TEST_P(MemoryForecast, IsWithinAFifthOfThePeak)
   const auto [forecast, peak] = readMemory(result.out);
   ASSERT_GT(peak, started + 10.0) << result.out;
   EXPECT_NEAR(peak - started, forecast - started, 0.2 * (peak - started));
+  const std::string tool = GetParam().tool;
+  if (tool == "uvol_isosurface" || tool == "uvol_levelset") {
+    EXPECT_GT(forecast, 0.98 * peak); // reports round both to three digits
+  }
 }
 
 /** A header that promises four thousand million points, and a file as long, of which
