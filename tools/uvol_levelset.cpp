@@ -9,7 +9,6 @@
 #include "io/table_file.h"
 #include "levelset/memory_need.h"
 #include "levelset/phi_cloud.h"
-#include "neighbors/sampling.h"
 #include "pipeline/guessed_isopoints.h"
 #include "pipeline/zero_level.h"
 #include "shared/level_set.h"
@@ -33,7 +32,6 @@
 #include <iomanip>
 #include <limits>
 #include <memory>
-#include <numeric>
 #include <sstream>
 
 namespace {
@@ -251,40 +249,12 @@ forecastMemory(const LevelSetParameters& parameters,
       };
 }
 
-pcl::Indices
-listAll(std::size_t points)
-{
-  pcl::Indices all(points);
-  std::iota(all.begin(), all.end(), 0);
-  return all;
-}
-
 /** Warn where the surface that is smoothed lies between lines of samples, as one that
  * is extracted does. */
 void
-warnOfGuesses(const pcl_uvol::Dataset& samples,
-              const LevelSetParameters& parameters,
-              unsigned threads,
-              Report& report)
+warnOfGuesses(const pcl_uvol::SamplingSummary& sampling, Report& report)
 {
-  pcl_uvol::IsosurfacePipelineParameters extraction;
-  extraction.isosurface.field = parameters.field;
-  extraction.isosurface.isovalues = {parameters.isovalue};
-  extraction.isosurface.scale = parameters.scale;
-  extraction.isosurface.interpolation = pcl_uvol::Interpolation::Linear;
-  extraction.normals = pcl_uvol::NormalMethod::Edge;
-  extraction.rotation = parameters.rotation;
-  pcl_uvol::IsosurfacePipeline pipeline;
-  pipeline.setInput({&samples, [](const void*) {}});
-  pipeline.setParameters(extraction);
-  pipeline.setNumberOfThreads(threads);
-  pipeline.setProgressCallback(report.progress);
-  const pcl_uvol::IsosurfaceResult result = pipeline.run();
-  const std::string warning = pcl_uvol::tellGuesses(
-      pcl_uvol::findGrounds(result.report),
-      result.sampling,
-      " The isosurface through the same samples can be tested (uvol_isosurface "
-      "-validate), and its gaps filled (-fill-gaps).");
+  const std::string warning = pcl_uvol::tellSmoothedGuesses(report, sampling);
   if (!warning.empty())
     report.warnings.push_back(warning);
 }
@@ -385,19 +355,11 @@ run(int argc, char** argv)
           has_snapshots,
           pcl_uvol::allowForDetail(
               pcl_uvol::estimateSurfaces(view, at_start, options.threads()).front())));
-  const pcl_uvol::SamplingSummary sampling =
-      pcl_uvol::summarizeSampling(view,
-                                  listAll(view.count),
-                                  parameters.field,
-                                  parameters.scale,
-                                  parameters.rotation,
-                                  options.threads());
-  if (sampling.most != pcl_uvol::LocalDimension::Volume && !boxed.isPeriodic())
-    warnOfGuesses(dataset, parameters, options.threads(), report);
   pcl_uvol::LevelSetEvolution<pcl::PCLPointCloud2> evolution;
   evolution.setInputCloud(
       pcl::PCLPointCloud2::ConstPtr(&dataset.cloud, [](const void*) {}));
   evolution.setParameters(parameters);
+  evolution.setExamined(true);
   evolution.setNumberOfThreads(options.threads());
   evolution.setProgressCallback(report.progress);
   evolution.setSnapshotCallback(
@@ -415,6 +377,9 @@ run(int argc, char** argv)
   evolution.evolve(result.cloud);
   boxed.dropImages(result);
   report.merge(evolution.getReport());
+  const pcl_uvol::SamplingSummary& sampling = *evolution.getSampling();
+  if (!boxed.isPeriodic()) // most of what is examined there may be images
+    warnOfGuesses(sampling, report);
   pcl_uvol::warnOfConflicts(report.getCount("samples"), 1, report);
   const pcl_uvol::LevelSetSummary& summary = evolution.getSummary();
 

@@ -10,6 +10,7 @@
 #include "levelset/mu_choice.h"
 #include "levelset/reinitialization.h"
 #include "levelset/robust_values.h"
+#include "levelset/surface_examination.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/levelset/level_set_evolution.h>
 
@@ -18,6 +19,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace pcl_uvol {
 
@@ -519,6 +521,7 @@ detail::evolveLevelSet(const CloudView& cloud,
                        const LevelSetParameters& parameters,
                        std::size_t snapshot_steps,
                        const SnapshotCallback& snapshot,
+                       std::optional<SamplingSummary>* sampling,
                        unsigned threads,
                        Report& report)
 {
@@ -527,8 +530,11 @@ detail::evolveLevelSet(const CloudView& cloud,
   const CloudView turned = axes.turn(cloud);
   LevelSetParameters along_axes = parameters;
   along_axes.initial = turnShape(parameters.initial, axes);
+  LevelSetInput input = readInput(turned, indices, along_axes, threads, report);
+  if (sampling)
+    *sampling = examineSurface(input, threads, report);
   return LevelSetRun(turned,
-                     readInput(turned, indices, along_axes, threads, report),
+                     std::move(input),
                      along_axes,
                      snapshot_steps,
                      snapshot,

@@ -105,6 +105,15 @@ tellGuesses(const SurfaceGrounds& grounds,
 }
 
 std::string
+tellSmoothedGuesses(const Report& evolution, const SamplingSummary& sampling)
+{
+  return tellGuesses(findGrounds(evolution),
+                     sampling,
+                     " The isosurface through the same samples can be tested "
+                     "(uvol_isosurface -validate), and its gaps filled (-fill-gaps).");
+}
+
+std::string
 adviseRemedies(const IsosurfacePipelineParameters& parameters)
 {
   std::vector<std::string> remedies;

@@ -56,6 +56,12 @@ tellGuesses(const SurfaceGrounds& grounds,
             const std::optional<SamplingSummary>& sampling,
             const std::string& advice);
 
+/** \brief The same of the surface that a level set smooths.
+ * \param evolution the report of one that was examined, see
+ * LevelSetEvolution::setExamined */
+PCL_UVOL_EXPORTS std::string
+tellSmoothedGuesses(const Report& evolution, const SamplingSummary& sampling);
+
 /** \brief What may help where samples leave much open, of what was not asked for: a
  * sentence behind a space, empty if it was all. */
 std::string

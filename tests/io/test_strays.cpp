@@ -47,7 +47,8 @@ evolveField(const pcl_uvol::CloudView& cloud, const std::string& field, double i
   parameters.field = field;
   parameters.isovalue = isovalue;
   Report report;
-  return pcl_uvol::detail::evolveLevelSet(cloud, all, parameters, 0, {}, 0, report);
+  return pcl_uvol::detail::evolveLevelSet(
+      cloud, all, parameters, 0, {}, nullptr, 0, report);
 }
 
 TEST(Strays, AreLeftOutCountedAndNamed)

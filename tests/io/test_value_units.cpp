@@ -148,8 +148,14 @@ TEST(Values, GradientsAndLevelSetsFollow)
     pcl_uvol::LevelSetParameters parameters;
     parameters.field = "f";
     parameters.isovalue = sphere_radius + offset;
-    return pcl_uvol::detail::evolveLevelSet(
-               pcl_uvol::viewOf(dataset.cloud), all, parameters, 0, nullptr, 0, report)
+    return pcl_uvol::detail::evolveLevelSet(pcl_uvol::viewOf(dataset.cloud),
+                                            all,
+                                            parameters,
+                                            0,
+                                            nullptr,
+                                            nullptr,
+                                            0,
+                                            report)
         .phi;
   };
   const auto phi = evolve(0.0), far_phi = evolve(1e7);

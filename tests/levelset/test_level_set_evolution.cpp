@@ -6,6 +6,7 @@
 #include "support/noisy_shapes.h"
 #include "support/statistics.h"
 #include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/isosurface/isosurface_extraction.h>
 #include <pcl_uvol/levelset/level_set_parameters.h>
 
 #include <Eigen/Geometry>
@@ -132,7 +133,7 @@ struct Reinitialized {
     parameters.max_steps = steps;
     parameters.isovalue = 0.0;
     const pcl_uvol::LevelSet found = pcl_uvol::detail::evolveLevelSet(
-        pcl_uvol::viewOf(cloud), all, parameters, 0, nullptr, 0, report);
+        pcl_uvol::viewOf(cloud), all, parameters, 0, nullptr, nullptr, 0, report);
     summary = found.summary;
     for (const double distance : radiiOf(*ball, found.phi))
       deviations.push_back(std::abs(distance - radius));
@@ -361,6 +362,49 @@ TEST(LevelSetEvolution, PointsWithoutAValueGetNone)
   EXPECT_TRUE(std::isnan(phi[3]) && std::isnan(phi[5]));
   EXPECT_EQ(phi[99], phi[149]);
   EXPECT_TRUE(std::isfinite(phi[99]));
+}
+
+/** Along lines of samples it counts what an extraction of linear isopoints does, and
+ * evolves the same function. */
+TEST(LevelSetEvolution, LooksAtHowSamplesLieWhereThatIsAskedFor)
+{
+  uvol_test::Random random(4);
+  const auto lines = std::make_shared<Cloud>();
+  for (int line = 0; line < 80; ++line) {
+    const auto x = static_cast<float>(20.0 * random.uniform() - 10.0),
+               y = static_cast<float>(20.0 * random.uniform() - 10.0);
+    for (int i = 0; i < 100; ++i) {
+      pcl::PointXYZI point;
+      point.getVector3fMap() << x, y, 0.2f * static_cast<float>(i) - 10.0f;
+      point.intensity = 6.0f - point.getVector3fMap().norm();
+      lines->push_back(point);
+    }
+  }
+  Evolution evolution;
+  evolution.setMaximumSteps(3);
+  const auto phi = evolve(evolution, lines);
+  EXPECT_FALSE(evolution.getSampling());
+  EXPECT_EQ(0u, evolution.getReport().getCount("examined"));
+  evolution.setExamined(true);
+  EXPECT_EQ(phi, evolve(evolution, lines));
+  ASSERT_TRUE(evolution.getSampling());
+  EXPECT_EQ(pcl_uvol::LocalDimension::Line, evolution.getSampling()->most);
+
+  pcl_uvol::IsosurfaceExtraction<pcl::PointXYZI> extraction;
+  extraction.setInputCloud(lines);
+  extraction.setIsoValue(0.0);
+  extraction.setInterpolation(pcl_uvol::Interpolation::Linear);
+  pcl::PointCloud<pcl_uvol::PointIso> isopoints;
+  extraction.extract(isopoints);
+  EXPECT_LT(0u, extraction.getReport().getCount("examined_bridged"));
+  for (const char* const name : {"examined", "examined_bridged", "examined_rim"})
+    EXPECT_EQ(extraction.getReport().getCount(name),
+              evolution.getReport().getCount(name))
+        << name;
+
+  evolve(evolution, makeBall(6.0, 10.0));
+  EXPECT_EQ(pcl_uvol::LocalDimension::Volume, evolution.getSampling()->most);
+  EXPECT_EQ(0u, evolution.getReport().getCount("examined"));
 }
 
 TEST(LevelSetEvolution, SaysWhenItHasNotConverged)

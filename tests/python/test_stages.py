@@ -34,6 +34,16 @@ def test_level_sets(tmp_path, run_tool, ball, arguments, options):
             lambda samples: uvol.level_set(samples, field="r", iso=0.3, **options))
 
 
+def test_level_sets_tell_of_guesses_as_the_tool_does(tmp_path, run_tool):
+    run_tool("uvol_generate", "in.pcd", "-field", "torus", "-n", 5000, "-samples", "holes")
+    told = json.loads(run_tool("uvol_levelset", "in.pcd", "out.ply", "-field", "torus", "-iso", 0, "-steps", 1, "-json"))
+    guesses = [warning for warning in told["warnings"] if "between lines of samples" in warning]
+    assert len(guesses) == 1
+    with pytest.warns(uvol.ResultWarning, match="between lines of samples"):
+        found = uvol.level_set(uvol.read(tmp_path / "in.pcd"), field="torus", iso=0, max_steps=1)
+    assert guesses[0] in found.report["warnings"]
+
+
 @pytest.mark.parametrize("arguments, options", [
     (["-periodic", "1,1,1"], dict(periodic=(1, 1, 1))),
     (["-periodic", "1,0,1", "-scale", "auto"], dict(periodic=(1, 0, 1), scale="auto")),

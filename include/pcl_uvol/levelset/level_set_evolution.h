@@ -8,10 +8,12 @@
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/levelset/level_set_parameters.h>
+#include <pcl_uvol/neighbors/neighbor_graph.h>
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +29,7 @@ namespace detail {
 
 /** \brief The kernel of LevelSetEvolution for any cloud.
  * \param snapshot told after every snapshot_steps steps; 0: never
+ * \param sampling set, and the surface examined; null: neither
  * \throws InvalidArgument, Diverged as LevelSetEvolution::evolve */
 PCL_UVOL_EXPORTS LevelSet
 evolveLevelSet(const CloudView& cloud,
@@ -34,6 +37,7 @@ evolveLevelSet(const CloudView& cloud,
                const LevelSetParameters& parameters,
                std::size_t snapshot_steps,
                const SnapshotCallback& snapshot,
+               std::optional<SamplingSummary>* sampling,
                unsigned threads,
                Report& report);
 
@@ -295,6 +299,23 @@ public:
     return parameters_.band_width;
   }
 
+  /** \brief Whether evolve() looks at how samples lie (getSampling()), and where that
+   * is not all around, at what the surface rests on: the report then counts as
+   * examined, examined_bridged and examined_rim how many isopoints on edges were looked
+   * at, at most 1024, and those in gaps and on rims. Default: not. */
+  void
+  setExamined(bool is_examined)
+  {
+    is_examined_ = is_examined;
+  }
+
+  /** \return Whether evolve() looks at how samples lie. */
+  bool
+  isExamined() const
+  {
+    return is_examined_;
+  }
+
   /** \brief Told after every so many steps of evolve(); 0 (default): nobody is.
    * \param steps between two calls
    * \param snapshot what is told, see SnapshotCallback */
@@ -354,12 +375,21 @@ public:
     return deviations_;
   }
 
+  /** \brief How samples lie, if the last evolve() looked at it. */
+  const std::optional<SamplingSummary>&
+  getSampling() const
+  {
+    return sampling_;
+  }
+
 private:
   /** Calls take(cloud, indices, level_set). */
   template <typename TakeT>
   void
   evolveInput(const TakeT& take);
 
+  bool is_examined_ = false;
+  std::optional<SamplingSummary> sampling_;
   std::size_t snapshot_steps_ = 0;
   SnapshotCallback snapshot_;
   LevelSetSummary summary_;
@@ -376,8 +406,15 @@ LevelSetEvolution<PointT>::evolveInput(const TakeT& take)
       "LevelSetEvolution", [&](const CloudView& cloud, const pcl::Indices& indices) {
         startReport();
         summary_ = LevelSetSummary();
-        LevelSet evolved = detail::evolveLevelSet(
-            cloud, indices, parameters_, snapshot_steps_, snapshot_, threads_, report_);
+        sampling_.reset();
+        LevelSet evolved = detail::evolveLevelSet(cloud,
+                                                  indices,
+                                                  parameters_,
+                                                  snapshot_steps_,
+                                                  snapshot_,
+                                                  is_examined_ ? &sampling_ : nullptr,
+                                                  threads_,
+                                                  report_);
         summary_ = evolved.summary;
         sources_ = evolved.sources;
         deviations_ = std::move(evolved.deviations);

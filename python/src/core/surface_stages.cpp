@@ -4,6 +4,7 @@
 #include "common/scalar_field.h"
 #include "core/bindings.h"
 #include "core/run_stage.h"
+#include "pipeline/guessed_isopoints.h"
 #include "pipeline/zero_level.h"
 #include "render/gaussian_splats.h"
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
@@ -11,6 +12,7 @@
 #include <pcl_uvol/surface/splat_generation.h>
 #include <pcl_uvol/surface/surface_normals.h>
 
+#include <algorithm>
 #include <array>
 #include <numeric>
 #include <pybind11/stl.h>
@@ -70,6 +72,7 @@ evolveLevelSet(const DatasetPtr& dataset,
     if (shifted.field.empty())
       shifted.field = ScalarField::defaultName(listNumberFields(*dataset));
     evolution.setParameters(shifted);
+    evolution.setExamined(true);
     evolution.setSnapshotCallback(
         every, [&](const LevelSetSummary& so_far, const std::vector<float>& phi) {
           snapshots.push_back(
@@ -79,6 +82,14 @@ evolveLevelSet(const DatasetPtr& dataset,
         });
     evolution.evolve(cloud);
   });
+  const bool is_periodic =
+      std::any_of(sides.begin(), sides.end(), [](double side) { return side > 0.0; });
+  const std::string guesses =
+      is_periodic
+          ? ""
+          : tellSmoothedGuesses(evolution.getReport(), *evolution.getSampling());
+  if (!guesses.empty())
+    report["warnings"].cast<py::list>().append(toText(guesses));
   const LevelSetSummary& summary = evolution.getSummary();
   report["field"] = toText(evolution.getParameters().field);
   report["spacing"] = summary.spacing;
