@@ -2,13 +2,16 @@
 #include "isosurface/memory_need.h"
 
 #include "common/random.h"
-#include "neighbors/kd_tree.h"
+#include "isosurface/isopoints.h"
 #include "neighbors/memory_need.h"
+#include "neighbors/neighbor_candidates.h"
+#include "neighbors/sample_values.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 
 #include <cmath>
 #include <cstring>
+#include <numeric>
 
 namespace pcl_uvol {
 
@@ -41,6 +44,68 @@ thin(const CloudView& cloud)
   return thinned;
 }
 
+/** A thinned cloud, ready to be asked how many samples and edges an isovalue meets. */
+class ThinnedSamples {
+public:
+  ThinnedSamples(const pcl::PCLPointCloud2& cloud,
+                 const IsosurfaceParameters& parameters,
+                 unsigned threads)
+      : parameters_(parameters)
+      , threads_(threads)
+  {
+    const CloudView view = viewOf(cloud);
+    const ScalarField field(view.fields, parameters.field);
+    frame_ = findValueRange(view, field, threads).findFrame();
+    const std::vector<float> values = readValues(view, field, frame_, threads);
+    pcl::Indices all(view.count);
+    std::iota(all.begin(), all.end(), 0);
+    samples_ = SampleSet::build(view.xyz(0),
+                                view.stride(),
+                                pointsWithValue(values, all, field),
+                                toPosition(parameters.scale),
+                                threads,
+                                report_);
+    values_ = gatherValues(*samples_, values, threads, report_).values;
+    ranges_ = samples_->getTree().computeRanges(values_, threads);
+    candidates_ = makeCandidates(
+        *samples_, parameters.neighbors, parameters.voronoi_cells, threads, report_);
+  }
+
+  std::size_t
+  size() const
+  {
+    return samples_->size();
+  }
+
+  SurfaceSize
+  count(double isovalue)
+  {
+    const IsopointInput input{*samples_,
+                              values_,
+                              ranges_,
+                              *candidates_,
+                              parameters_.criterion,
+                              parameters_.outside,
+                              Interpolation::Linear,
+                              threads_};
+    const auto rounded = static_cast<float>(frame_.apply(isovalue));
+    const std::vector<std::uint32_t> crossing =
+        candidates_->findCrossing(ranges_, rounded, threads_);
+    const std::vector<EdgeKey> edges = findEdges(input, crossing, rounded, report_);
+    return {static_cast<double>(crossing.size()), static_cast<double>(edges.size())};
+  }
+
+private:
+  const IsosurfaceParameters& parameters_;
+  unsigned threads_;
+  Report report_; // nobody asks
+  ValueFrame frame_;
+  SampleSet::ConstPtr samples_;
+  std::vector<float> values_;
+  NodeRanges ranges_;
+  NeighborCandidates::ConstPtr candidates_;
+};
+
 } // namespace
 
 std::vector<SurfaceSize>
@@ -48,31 +113,23 @@ estimateSurfaces(const CloudView& cloud,
                  const IsosurfaceParameters& parameters,
                  unsigned threads)
 {
-  const std::vector<double>& isovalues = parameters.isovalues;
-  std::vector<SurfaceSize> surfaces(isovalues.size());
+  std::vector<SurfaceSize> surfaces(parameters.isovalues.size());
   if (cloud.count == 0)
     return surfaces;
-  IsosurfaceExtraction<pcl::PCLPointCloud2> extraction;
-  extraction.setInputCloud(thin(cloud));
-  extraction.setParameters(parameters);
-  extraction.setNeighborSource(parameters.neighbors); // cells by the number of samples
-  extraction.setInterpolation(Interpolation::Linear);
-  extraction.setNumberOfThreads(threads);
-  pcl::PointCloud<PointIso> isopoints;
-  for (std::size_t i = 0; i < isovalues.size(); ++i) {
-    extraction.setIsoValue(isovalues[i]);
-    try {
-      extraction.extract(isopoints);
+  try {
+    checkParameters(parameters);
+    const pcl::PCLPointCloud2::ConstPtr thinned = thin(cloud);
+    ThinnedSamples samples(*thinned, parameters, threads);
+    const double factor =
+        std::pow(static_cast<double>(cloud.count) / static_cast<double>(samples.size()),
+                 2.0 / 3.0);
+    for (std::size_t i = 0; i < surfaces.size(); ++i) {
+      const SurfaceSize size = samples.count(parameters.isovalues[i]);
+      surfaces[i] = {factor * size.crossing, factor * size.isopoints};
     }
-    catch (const InvalidArgument&) {
-      return surfaces; // the extraction of the whole cloud will tell what is wrong
-    }
-    const Report& report = extraction.getReport();
-    const double factor = std::pow(static_cast<double>(cloud.count) /
-                                       static_cast<double>(report.getCount("samples")),
-                                   2.0 / 3.0);
-    surfaces[i] = {factor * static_cast<double>(report.getCount("crossing_samples")),
-                   factor * static_cast<double>(report.getCount("edges"))};
+  }
+  catch (const InvalidArgument&) {
+    return surfaces; // the extraction of the whole cloud will tell what is wrong
   }
   return surfaces;
 }
