@@ -12,6 +12,7 @@
 #include "neighbors/nearest_finder.h"
 #include "neighbors/sampling.h"
 #include "pipeline/gap_widths.h"
+#include "pipeline/kriged_slopes.h"
 #include "pipeline/lattice_band.h"
 #include "pipeline/stretched_edges.h"
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
@@ -187,6 +188,23 @@ appendCopies(const std::vector<std::uint32_t>& sources, pcl::PCLPointCloud2& clo
     std::copy_n(&cloud.data[sources[i] * step], step, &cloud.data[(before + i) * step]);
 }
 
+std::vector<Place>
+listPlaces(const pcl::PointCloud<PointIso>& points)
+{
+  std::vector<Place> places;
+  for (const PointIso& point : points)
+    places.push_back({point.x, point.y, point.z});
+  return places;
+}
+
+/** Whether so many of the isopoints in gaps tell of gaps in the sampling. */
+bool
+areGaps(std::size_t in_gaps, std::size_t isopoints)
+{
+  return in_gaps > 0 &&
+         static_cast<double>(in_gaps) >= least_gaps * static_cast<double>(isopoints);
+}
+
 /** Why gaps that are there were not filled.
  * \param kriged places where kriging gave a value */
 std::string
@@ -264,14 +282,15 @@ FilledGaps::FilledGaps(const std::shared_ptr<const Dataset>& samples,
   extraction.extract(roots);
   measured_ = extraction.getSamples();
   sampling_ = summarizeSampling(*measured_, threads);
-  findSpacing(roots, extraction.getEdges(), parameters, threads, report.progress);
-  measureErrors(parameters, extraction);
+  const auto is_in_gap =
+      findSpacing(roots, extraction.getEdges(), parameters, threads, report.progress);
   filled_ = samples;
   if (summary_.spacing > 0.0) {
     hull_ = std::make_unique<SampleHull>(
         *measured_, hull_tolerance * summary_.spacing * measured_->getUnit().factor);
     krigeComposites(parameters, threads, report.progress);
-    predict(roots, parameters, threads, report);
+    compareFits(is_in_gap, parameters, extraction, threads, report.progress);
+    predictBetween(roots, is_in_gap, parameters, threads, report);
   }
   if (has_gaps_ && summary_.predicted == 0)
     report.warnings.push_back(
@@ -280,20 +299,76 @@ FilledGaps::FilledGaps(const std::shared_ptr<const Dataset>& samples,
 }
 
 void
-FilledGaps::measureErrors(const IsosurfaceParameters& parameters,
-                          IsosurfaceExtraction<pcl::PCLPointCloud2>& extraction)
+FilledGaps::compareFits(const std::vector<std::uint8_t>& is_in_gap,
+                        const IsosurfaceParameters& parameters,
+                        IsosurfaceExtraction<pcl::PCLPointCloud2>& extraction,
+                        unsigned threads,
+                        const ProgressCallback& progress)
 {
   extraction.setInterpolation(Interpolation::Fit);
-  pcl::PointCloud<PointIso> fits;
-  extraction.extract(fits);
-  const IsoEdges& edges = extraction.getEdges();
+  pcl::PointCloud<PointIso> fits, crossings;
+  extraction.extract(fits); // of the same edges
+  std::vector<std::uint8_t> are_supported;
   std::vector<float> errors;
-  for (std::size_t i = 0; i < fits.size(); ++i)
-    if (stretchedLength(viewOf(samples_->cloud), edges[i], parameters.scale) >
-        half_gap * summary_.spacing)
-      errors.push_back(fits[i].error);
-  if (!errors.empty())
-    measured_error_ = computeMedian(errors);
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    if (is_in_gap[i] != 0 &&
+        stretchedLength(viewOf(samples_->cloud),
+                        extraction.getEdges()[i],
+                        parameters.scale) <= half_gap * summary_.spacing)
+      continue;
+    crossings.push_back(fits[i]);
+    if (!hasFit(fits[i]))
+      crossings.back().error = std::numeric_limits<float>::infinity();
+    are_supported.push_back(is_in_gap[i] == 0);
+    errors.push_back(fits[i].error);
+  }
+  const std::vector<Place> places = listPlaces(crossings);
+  const auto slopes = findKrigedSlopes(*field_,
+                                       places,
+                                       slope_step * summary_.spacing,
+                                       parameters.scale.cast<double>(),
+                                       threads,
+                                       progress);
+  sure_fits_ = std::make_unique<SureFits>(
+      crossings, are_supported, slopes, parameters.scale, summary_.spacing, threads);
+  const auto is_sure = sure_fits_->find(places, threads);
+  std::vector<float> unsure;
+  for (std::size_t i = 0; i < errors.size(); ++i)
+    if (is_sure[i] == 0 && are_supported[i] == 0)
+      unsure.push_back(errors[i]);
+  if (!unsure.empty())
+    measured_error_ = computeMedian(unsure);
+}
+
+void
+FilledGaps::predictBetween(const pcl::PointCloud<PointIso>& roots,
+                           const std::vector<std::uint8_t>& is_in_gap,
+                           const IsosurfaceParameters& parameters,
+                           unsigned threads,
+                           Report& report)
+{
+  const auto is_sure = sure_fits_->find(listPlaces(roots), threads);
+  pcl::PointCloud<PointIso> seeds;
+  std::size_t in_gaps = 0, unsure = 0;
+  for (std::size_t i = 0; i < roots.size(); ++i) {
+    in_gaps += is_in_gap[i];
+    if (is_sure[i] != 0)
+      continue;
+    unsure += is_in_gap[i];
+    seeds.push_back(roots[i]);
+  }
+  if (!areGaps(unsure, roots.size())) {
+    summary_.unfilled = "fits to the measured samples are surer of the surface across "
+                        "them than kriging is";
+    return;
+  }
+  predict(seeds, parameters, threads, report);
+  if (summary_.predicted > 0 && 2 * unsure < in_gaps)
+    report.warnings.push_back(
+        "Few gaps were filled: at " + std::to_string(in_gaps - unsure) + " of " +
+        std::to_string(in_gaps) +
+        " crossings of the surface in gaps, fits to the measured samples are surer of "
+        "it than kriging is.");
 }
 
 void
@@ -389,33 +464,32 @@ FilledGaps::findThin(const std::vector<Place>& places,
   return thin;
 }
 
-void
+std::vector<std::uint8_t>
 FilledGaps::findSpacing(const pcl::PointCloud<PointIso>& roots,
                         const IsoEdges& edges,
                         const IsosurfaceParameters& parameters,
                         unsigned threads,
                         const ProgressCallback& progress)
 {
-  std::vector<Place> places;
-  for (const PointIso& root : roots)
-    places.push_back({root.x, root.y, root.z});
+  const std::vector<Place> places = listPlaces(roots);
   Report own;
   own.progress = progress;
   const auto support = nearest_->interpolate(places, threads, own).support;
   const auto thin = findThin(places, threads, nullptr);
   const CloudView cloud = viewOf(samples_->cloud);
+  std::vector<std::uint8_t> is_in_gap(roots.size(), 0);
   std::size_t in_gaps = 0;
   std::vector<double> lengths;
   for (std::size_t i = 0; i < roots.size(); ++i) {
     if (thin[i] == 0 && support[i] == FieldSupport::Measured)
       continue;
     ++in_gaps;
+    is_in_gap[i] = 1;
     const double length = stretchedLength(cloud, edges[i], parameters.scale);
     if (length > crossing_edge * static_cast<double>(sampling_.along))
       lengths.push_back(length);
   }
-  has_gaps_ = in_gaps > 0 && static_cast<double>(in_gaps) >=
-                                 least_gaps * static_cast<double>(roots.size());
+  has_gaps_ = areGaps(in_gaps, roots.size());
   summary_.unfilled = roots.empty() ? "there is no surface"
                       : has_gaps_ ? "the samples are too few to tell how wide they are"
                                   : "samples lie all around the surface";
@@ -430,6 +504,7 @@ FilledGaps::findSpacing(const pcl::PointCloud<PointIso>& roots,
   }
   summary_.spacing = width / samples_per_gap;
   reach_ = farthest_gaps * width;
+  return is_in_gap;
 }
 
 void
@@ -461,6 +536,7 @@ FilledGaps::predict(const pcl::PointCloud<PointIso>& roots,
           near.push_back(i);
           near_places.push_back(places[i]);
         }
+      const auto is_sure = sure_fits_->find(near_places, threads);
       const InterpolatedFields field = field_->interpolate(near_places, threads, own);
       const auto support = nearest_->interpolate(near_places, threads, own).support;
       for (std::size_t j = 0; j < near.size(); ++j) {
@@ -469,7 +545,8 @@ FilledGaps::predict(const pcl::PointCloud<PointIso>& roots,
                             distances[i] > sampled_part * summary_.spacing;
         const bool is_between =
             hull_->contains(measured_->getUnit().apply(toFloat(places[i])));
-        values[i] = {field.values[j], is_gap && is_between && distances[i] > 0.0};
+        values[i] = {field.values[j],
+                     is_gap && is_between && is_sure[j] == 0 && distances[i] > 0.0};
         kriged += std::isfinite(field.values[j]);
       }
       return values;

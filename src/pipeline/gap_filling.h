@@ -7,6 +7,7 @@
 #include "neighbors/sample_set.h"
 #include "pipeline/isopoint_choice.h"
 #include "pipeline/sample_hull.h"
+#include "pipeline/sure_fits.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/export.h>
@@ -64,7 +65,8 @@ takesLattice(const IsosurfacePipelineParameters& parameters);
  * robust one, see VariogramEstimator::MeanRoot. The lattice's nodes around the surface
  * become samples where measured ones lack, at most half a gap outside of the hull of
  * these, and no farther from the nearest one than the range of the variogram and than a
- * few of these spacings. */
+ * few of these spacings; none where local fits of the measured ones are surer of the
+ * surface, see SureFits. */
 class PCL_UVOL_EXPORTS FilledGaps {
 public:
   /** \param use the points to take
@@ -125,7 +127,8 @@ private:
   /** Predicted samples that are neighbours on the lattice. */
   using LatticeEdge = std::pair<std::uint32_t, std::uint32_t>;
 
-  void
+  /** \return which roots lie in gaps */
+  std::vector<std::uint8_t>
   findSpacing(const pcl::PointCloud<PointIso>& roots,
               const IsoEdges& edges,
               const IsosurfaceParameters& parameters,
@@ -138,11 +141,25 @@ private:
                   unsigned threads,
                   const ProgressCallback& progress);
 
-  /** Find what fits tell of the surface across gaps, without predicted samples.
-   * \param extraction of the measured ones */
+  /** Find where fits are surer of the surface across gaps than kriging, and what their
+   * errors are elsewhere.
+   * \param is_in_gap one per isopoint
+   * \param extraction of the measured samples */
   void
-  measureErrors(const IsosurfaceParameters& parameters,
-                IsosurfaceExtraction<pcl::PCLPointCloud2>& extraction);
+  compareFits(const std::vector<std::uint8_t>& is_in_gap,
+              const IsosurfaceParameters& parameters,
+              IsosurfaceExtraction<pcl::PCLPointCloud2>& extraction,
+              unsigned threads,
+              const ProgressCallback& progress);
+
+  /** Predict where roots that lie in gaps need it, and tell if they do not.
+   * \param is_in_gap one per root */
+  void
+  predictBetween(const pcl::PointCloud<PointIso>& roots,
+                 const std::vector<std::uint8_t>& is_in_gap,
+                 const IsosurfaceParameters& parameters,
+                 unsigned threads,
+                 Report& report);
 
   void
   takeVariogram();
@@ -173,11 +190,13 @@ private:
   SamplingSummary sampling_;
   std::unique_ptr<FieldInterpolator> field_;
   std::unique_ptr<SampleHull> hull_;
+  std::unique_ptr<SureFits> sure_fits_;
   std::unique_ptr<FieldInterpolator> nearest_; ///< tells support of measured samples
   std::vector<LatticeEdge> lattice_edges_;
   double reach_ = 0.0; ///< from the nearest measured sample
   bool has_gaps_ = false;
-  /** Median of the errors of fits to measured samples across gaps; infinite of none. */
+  /** Median of the errors of fits to measured samples across gaps where they are not
+   * the surer ones; infinite of none. */
   float measured_error_ = std::numeric_limits<float>::infinity();
   GapFilling summary_;
 };

@@ -4,6 +4,8 @@
 #include "common/scalar_field.h"
 #include "isosurface/iso_edges.h"
 #include "pipeline/gap_filling.h"
+#include "pipeline/gap_widths.h"
+#include "pipeline/kriged_slopes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,10 +16,6 @@
 namespace pcl_uvol::detail {
 
 namespace {
-
-/** Share of the spacing of predicted samples: slopes of the kriged field are those
- * between places so far to both sides, since its gradient jumps at samples. */
-constexpr double slope_step = 1.0;
 
 /** Spacings of predicted samples: an edge between measured samples that is longer
  * reaches across a gap. */
@@ -38,9 +36,6 @@ constexpr float least_confidence = 0.5f;
  * large; up to 8 where waves are as long as gaps are wide. */
 constexpr float much_worse = 16.0f;
 
-/** A place, and those to both sides along the axes. */
-constexpr std::size_t star = 7;
-
 using Eigen::Array3d;
 
 Array3d
@@ -51,29 +46,6 @@ rootOf(const CloudView& cloud, const IsoEdge& edge)
   };
   return at(edge.first) +
          static_cast<double>(edge.t) * (at(edge.second) - at(edge.first));
-}
-
-/** The kriged field at an isopoint; by the coordinates of the stretched space. */
-struct Slope {
-  Array3d direction; ///< of steepest ascent, a unit vector
-  double length;     ///< of the gradient
-  double offset;     ///< from the isopoint to the isosurface, along the direction
-};
-
-/** \param first of the star's answers */
-Slope
-slopeAt(const InterpolatedFields& field,
-        std::size_t first,
-        double step,
-        double isovalue)
-{
-  Array3d gradient;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    gradient[static_cast<Eigen::Index>(axis)] =
-        (field.values[first + 2 * axis + 2] - field.values[first + 2 * axis + 1]) /
-        (2.0 * step);
-  const double length = gradient.matrix().norm();
-  return {gradient / length, length, (isovalue - field.values[first]) / length};
 }
 
 /** Isopoints that were found in gaps, and how many of them kriging explains nothing of,
@@ -206,22 +178,17 @@ FilledGaps::judge(const IsosurfacePipelineParameters& parameters,
   const CloudView cloud = viewOf(filled_->cloud);
   const bool is_auto = returnsToEdges(parameters);
   const Array3d scale = parameters.isosurface.scale.cast<double>();
-  const double step = slope_step * summary_.spacing;
-  std::vector<std::array<double, 3>> roots, places;
+  std::vector<std::array<double, 3>> roots;
   for (std::size_t i = 0; i < isopoints.size(); ++i) {
     const Array3d root = is_auto ? rootOf(cloud, edges[i])
                                  : Array3d(isopoints[i].getArray3fMap().cast<double>());
     roots.push_back({root[0], root[1], root[2]});
-    places.push_back(roots.back());
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      for (const double sign : {-1.0, 1.0}) {
-        places.push_back(roots.back());
-        places.back()[axis] += sign * step / scale[static_cast<Eigen::Index>(axis)];
-      }
   }
   Report own;
   own.progress = report.progress;
-  const InterpolatedFields field = field_->interpolate(places, threads, own);
+  const auto slopes = findKrigedSlopes(
+      *field_, roots, slope_step * summary_.spacing, scale, threads, report.progress);
+  const auto is_sure = sure_fits_->find(roots, threads);
   const auto support = nearest_->interpolate(roots, threads, own).support;
   const auto thin = findThin(roots, threads, nullptr);
   const double variance = summary_.nugget + summary_.sill;
@@ -235,29 +202,29 @@ FilledGaps::judge(const IsosurfacePipelineParameters& parameters,
     const bool is_predicted = edge.first >= measured || edge.second >= measured;
     const Eigen::Map<const Eigen::Array3f> a(cloud.xyz(edge.first)),
         b(cloud.xyz(edge.second));
+    if (!is_predicted && is_sure[i] != 0)
+      continue;
     const bool is_in_gap =
         is_predicted || ((b - a).cast<double>() * scale).matrix().norm() >
                             longest_edge * summary_.spacing;
     if (!is_in_gap && thin[i] == 0 && support[i] == FieldSupport::Measured)
       continue;
-    const Slope slope =
-        slopeAt(field, star * i, step, static_cast<double>(point.isovalue));
+    const KrigedSlope& slope = slopes[i];
     if (!(slope.length > 0.0))
       continue;
     const Array3d covector = slope.direction * scale;
     if (is_in_gap) {
       point.support = static_cast<std::uint8_t>(IsoSupport::Predicted);
-      const double deviation = field.errors[star * i];
-      point.error =
-          static_cast<float>(deviation / (slope.length * covector.matrix().norm()));
+      point.error = static_cast<float>(slope.findError(scale));
       choice.confidence[i] = static_cast<float>(
-          std::clamp(1.0 - deviation * deviation / variance, 0.0, 1.0));
+          std::clamp(1.0 - slope.deviation * slope.deviation / variance, 0.0, 1.0));
     }
     if (!is_auto)
       continue;
     found.all += is_in_gap;
     found.unexplained += !(choice.confidence[i] > 0.0f);
-    const double offset = std::abs(slope.offset) / summary_.spacing;
+    const double shift = slope.findOffset(static_cast<double>(point.isovalue));
+    const double offset = std::abs(shift) / summary_.spacing;
     if (is_in_gap)
       stays[i] = (is_predicted || !on_lattice) && offset <= farthest_in_gap &&
                  choice.confidence[i] > 0.0f;
@@ -265,7 +232,7 @@ FilledGaps::judge(const IsosurfacePipelineParameters& parameters,
       stays[i] = !on_lattice || offset <= farthest_on_line;
     Array3d place(roots[i][0], roots[i][1], roots[i][2]);
     if (is_in_gap)
-      place += slope.offset * slope.direction / scale;
+      place += shift * slope.direction / scale;
     else
       point.error = std::max(edge.t, 1.0f - edge.t) * point.edge_length;
     point.getArray3fMap() = place.cast<float>();

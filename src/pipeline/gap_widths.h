@@ -18,6 +18,10 @@ constexpr double half_gap = 0.5 * samples_per_gap;
  * around them. */
 constexpr double hull_tolerance = half_gap;
 
+/** \brief Spacings of predicted samples: slopes of the kriged field are those between
+ * places so far to both sides. */
+constexpr double slope_step = 1.0;
+
 /** \brief Spacings along lines or sheets: edges that are longer may reach across to
  * others. Where nothing is seen to lie beside a line, the gaps are as wide as the lower
  * quartile of these edges. */

@@ -47,12 +47,6 @@ toNumbers(const std::vector<Enum>& values)
 }
 
 bool
-hasFit(const PointIso& point)
-{
-  return !std::isnan(point.mean_curvature);
-}
-
-bool
 isSupport(const PointIso& point, IsoSupport support)
 {
   return point.support == static_cast<std::uint8_t>(support);

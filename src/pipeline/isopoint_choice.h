@@ -12,10 +12,18 @@
 
 #include <pcl/point_cloud.h>
 
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
 namespace pcl_uvol {
+
+/** \brief Whether an isopoint lies on a fit, which has told its curvature. */
+inline bool
+hasFit(const PointIso& point)
+{
+  return !std::isnan(point.mean_curvature);
+}
 
 /** \brief How each isopoint came about. */
 struct IsopointChoice {
