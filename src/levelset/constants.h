@@ -46,6 +46,10 @@ struct LevelSetConstants {
    * fits do not follow the field, as at the ridge of a sheet 4 thick: pairs count. */
   double misfit_part = 0.7;
 
+  /** Share of the samples next to the surface that have one value: more of them do not
+   * tell the noise. */
+  double most_ties = 0.25;
+
   // How much is smoothed (mu_choice.cpp)
 
   /** From weight to weight: the deviation changes by less than 5 % between them. */

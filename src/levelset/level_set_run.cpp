@@ -11,6 +11,7 @@
 #include "levelset/reinitialization.h"
 #include "levelset/robust_values.h"
 #include "levelset/surface_examination.h"
+#include "levelset/value_ties.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/levelset/level_set_evolution.h>
 
@@ -174,12 +175,22 @@ private:
           chooseMu(*band_, samples_, term_, parameters_, spacing_, threads_, report_);
       stages_ = std::move(choice.stages);
       shares_ = choice.shares;
+      if (stages_.empty())
+        warnOfTies();
       if (has_own_start)
         stages_ = {{stages_.empty() ? 1.0 : stages_.back().mu, ever}};
     }
     summary_.smoothed = !stages_.empty() || input_.had_spikes;
     summary_.converged = stages_.empty();
     summary_.mu = stages_.empty() ? 1.0 : stages_.front().mu;
+  }
+
+  void
+  warnOfTies()
+  {
+    const double share = shareOfCommonest(input_.f, crossing_);
+    if (share > level_set.most_ties)
+      report_.warnings.push_back(describeTies(parameters_.isovalue, share));
   }
 
   bool

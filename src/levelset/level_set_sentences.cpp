@@ -26,8 +26,23 @@ std::string
 describeVanished(const LevelSetParameters& parameters)
 {
   return "The level set of " + parameters.field + " at the isovalue " +
-         describeNumbers({parameters.isovalue})[0] +
-         " has vanished: smoothing took the whole surface away. A larger mu keeps it.";
+         describeNumbers({parameters.isovalue})[0] + " has vanished: " +
+         (parameters.initial.kind == InitialKind::Values
+              ? "smoothing took the whole surface away. A larger mu keeps it."
+              : "the values drew the whole start away. They lie on its other sides, if "
+                "the wrong side is the outside.");
+}
+
+std::string
+describeTies(double isovalue, double share)
+{
+  std::ostringstream text;
+  text.precision(2);
+  text << "Of the values next to the isovalue " << describeNumbers({isovalue})[0] << ' '
+       << 100.0 * share
+       << " % are the same: values in steps, or at a limit, do not tell how noisy they "
+          "are, and nothing was smoothed. -mu 0.1 smooths them.";
+  return text.str();
 }
 
 std::string

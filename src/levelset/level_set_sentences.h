@@ -2,6 +2,7 @@
 // What people are told of level sets that did not end well.
 #pragma once
 
+#include <pcl_uvol/common/export.h>
 #include <pcl_uvol/levelset/level_set_parameters.h>
 
 #include <cstddef>
@@ -15,8 +16,13 @@ namespace pcl_uvol {
 std::string
 adviseStability(const LevelSetParameters& parameters);
 
-std::string
+PCL_UVOL_EXPORTS std::string
 describeVanished(const LevelSetParameters& parameters);
+
+/** \brief Values that are alike told an automatic mu nothing.
+ * \param share of the samples next to the surface */
+std::string
+describeTies(double isovalue, double share);
 
 /** \brief That it still moved after its last step.
  * \param chosen_mu the weight that it was on its way to, if it has not come there */

@@ -121,11 +121,9 @@ adviseRemedies(const IsosurfacePipelineParameters& parameters)
     remedies.emplace_back("-scale");
   if (!parameters.fill_gaps)
     remedies.emplace_back("-fill-gaps");
-  if (!parameters.drop_bridged)
-    remedies.emplace_back("-drop-bridged");
   std::string advice;
-  for (std::size_t i = 0; i < remedies.size(); ++i)
-    advice += (i == 0 ? " " : i + 1 < remedies.size() ? ", " : " or ") + remedies[i];
+  for (const std::string& remedy : remedies)
+    advice += (advice.empty() ? " " : " or ") + remedy;
   return remedies.empty() ? "" : advice + " may help.";
 }
 

@@ -369,8 +369,10 @@ constexpr double trusted_side = 0.8;
 void
 warnOfScores(const std::vector<ValidationScore>& scores,
              const IsosurfacePipelineParameters& parameters,
+             const std::optional<SamplingSummary>& sampling,
              Report& report)
 {
+  const bool lie_all_around = sampling && sampling->most == LocalDimension::Volume;
   const auto warn_where = [&](const auto& holds, const std::string& sentence) {
     if (std::any_of(scores.begin(), scores.end(), holds))
       report.warnings.push_back(sentence);
@@ -385,10 +387,14 @@ warnOfScores(const std::vector<ValidationScore>& scores,
       [](const ValidationScore& score) {
         return score.side.nearest - score.side.predicted > score.side_error;
       },
-      "Near the surface, the nearest sample tells the class of samples that were left "
-      "out better than the surface does: trust where it crosses lines of samples, not "
-      "what lies between." +
-          adviseRemedies(parameters));
+      lie_all_around
+          ? "Near the surface, the nearest sample tells the class of samples that were "
+            "left out better than the surface does: the field changes too fast for "
+            "these samples there, or their values are noisy or outliers."
+          : "Near the surface, the nearest sample tells the class of samples that were "
+            "left out better than the surface does: trust where it crosses lines of "
+            "samples, not what lies between." +
+                adviseRemedies(parameters));
   warn_where(
       [](const ValidationScore& score) {
         return score.beyond_error >= least_beyond_error &&

@@ -12,6 +12,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace pcl_uvol {
@@ -52,10 +53,12 @@ scoreHeldOut(const std::vector<HeldOutSample>& samples);
 
 /** \brief Say so where a surface tells the side of samples that were left out worse
  * than always saying the same does, or than the nearest sample does by more than the
- * standard error of the difference. */
+ * standard error of the difference.
+ * \param sampling where samples lie all around, no line of them is told of */
 PCL_UVOL_EXPORTS void
 warnOfScores(const std::vector<ValidationScore>& scores,
              const IsosurfacePipelineParameters& parameters,
+             const std::optional<SamplingSummary>& sampling,
              Report& report);
 
 /** \brief Divide points as the parameters say. */

@@ -280,8 +280,10 @@ IsosurfacePipeline::runFilled(IsosurfacePipelineParameters parameters)
   report_.merge(result.report);
   result.report = std::move(report_);
   result.gaps = gaps.getSummary();
-  if (parameters.validation.folds > 0)
+  if (parameters.validation.folds > 0) {
     result.validation = validate(parameters, result.report);
+    warnOfScores(result.validation, parameters, result.sampling, result.report);
+  }
   report_ = result.report;
   return result;
 }
@@ -368,8 +370,10 @@ IsosurfacePipeline::runOnSamples(const IsosurfacePipelineParameters& parameters)
     result.smallest_angle = found.smallest_angle;
   }
   result.level_sets = std::move(level_sets);
-  if (parameters.validation.folds > 0)
+  if (parameters.validation.folds > 0) {
     result.validation = validate(parameters, result.report);
+    warnOfScores(result.validation, parameters, result.sampling, result.report);
+  }
   report_ = result.report;
   return result;
 }
@@ -496,7 +500,6 @@ IsosurfacePipeline::validate(const IsosurfacePipelineParameters& parameters,
   for (const auto& of_isovalue :
        holdOut(samples_, listPoints(), parameters, folds, threads_, report))
     scores.push_back(scoreHeldOut(of_isovalue));
-  warnOfScores(scores, parameters, report);
   return scores;
 }
 

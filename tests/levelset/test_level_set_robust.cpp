@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Level sets of data as people hold them: any unit, spikes, thin shapes, nothing to
 // smooth, and starts that are no distances.
+#include "levelset/level_set_sentences.h"
 #include "levelset/level_set_setup.h"
 #include "support/noisy_shapes.h"
 #include "support/smooth_fields.h"
@@ -282,6 +283,35 @@ TEST(LevelSetRobust, SaysThatTheSurfaceHasVanished)
   evolution.evolve(phi);
   EXPECT_FALSE(evolution.getSummary().converged);
   EXPECT_TRUE(hasWarning(evolution, "isovalue 7 has vanished"));
+}
+
+/** Values drew away what began elsewhere, whatever the weight of smoothing. */
+TEST(LevelSetRobust, SaysWhyTheStartHasVanished)
+{
+  LevelSetParameters parameters;
+  EXPECT_NE(std::string::npos, describeVanished(parameters).find("A larger mu"));
+  parameters.initial = InitialFunction::sphere({0.0, 0.0, 0.0}, 4.0);
+  EXPECT_EQ(std::string::npos, describeVanished(parameters).find("mu"));
+  EXPECT_NE(std::string::npos, describeVanished(parameters).find("outside"));
+}
+
+/** Values in steps of two spacings, between two limits, of two classes. */
+TEST(LevelSetRobust, SaysThatValuesInStepsDoNotTellTheirNoise)
+{
+  const auto told = [](const auto& change) {
+    const auto cloud = makeBall(6.0, 10.0);
+    for (auto& point : *cloud)
+      point.intensity = change(point.intensity);
+    Evolution evolution;
+    evolve(evolution, cloud);
+    return hasWarning(evolution, "% are the same: values in steps");
+  };
+  EXPECT_TRUE(told([](float f) { return 2.0f * std::floor(0.5f * f) + 1.0f; }));
+  EXPECT_TRUE(told([](float f) { return std::clamp(f, -0.1f, 0.1f); }));
+  EXPECT_TRUE(told([](float f) { return f < 0.0f ? -1.0f : 1.0f; }));
+  EXPECT_FALSE(told([](float f) { return f; }));
+  // Eight bits across the surface are fine enough.
+  EXPECT_FALSE(told([](float f) { return std::round(8.0f * f) / 8.0f + 0.01f; }));
 }
 
 TEST(LevelSetRobust, TellsWhatSmoothingTookAway)

@@ -95,16 +95,12 @@ TEST(GapFilling, IsAdvisedAsOtherOptionsThatWereNotGiven)
   };
   IsosurfacePipelineParameters parameters = makeParameters(false);
   const std::string test = " A hold-out test tells how good it is (-validate).";
-  EXPECT_TRUE(advises(findGuesses(parameters),
-                      test + " -scale, -fill-gaps or -drop-bridged may help."))
+  EXPECT_TRUE(
+      advises(findGuesses(parameters), test + " -scale or -fill-gaps may help."))
       << findGuesses(parameters);
   parameters.isosurface.scale = {1.0f, 1.0f, 2.0f};
-  EXPECT_TRUE(
-      advises(findGuesses(parameters), test + " -fill-gaps or -drop-bridged may help."))
+  EXPECT_TRUE(advises(findGuesses(parameters), test + " -fill-gaps may help."))
       << findGuesses(parameters);
-  // What was left out is no guess any more.
-  parameters.drop_bridged = true;
-  EXPECT_EQ(findGuesses(parameters).find("-drop-bridged"), std::string::npos);
 }
 
 std::string

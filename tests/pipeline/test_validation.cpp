@@ -129,6 +129,7 @@ TEST(Validation, SaysWhoIsBetterThanTheSurface)
   // 100 samples: the surface tells 70 rightly, the nearest sample so many of the other
   // 30 and none, or some, of the 70 wrongly; 30 are below.
   IsosurfacePipelineParameters parameters;
+  std::optional<SamplingSummary> sampling;
   const auto warn = [&](int gained, int lost, int below) {
     std::vector<HeldOutSample> samples;
     for (int i = 0; i < 100; ++i) {
@@ -138,7 +139,7 @@ TEST(Validation, SaysWhoIsBetterThanTheSurface)
           {0, is_above, nearest == is_above, true, side == is_above, true, 0.5f, 1.0f});
     }
     Report report;
-    warnOfScores({scoreHeldOut(samples)}, parameters, report);
+    warnOfScores({scoreHeldOut(samples)}, parameters, sampling, report);
     return report.warnings;
   };
   EXPECT_TRUE(warn(0, 0, 50).empty());
@@ -149,14 +150,18 @@ TEST(Validation, SaysWhoIsBetterThanTheSurface)
   ASSERT_EQ(1u, warn(7, 3, 50).size());
   EXPECT_NE(std::string::npos, warn(7, 3, 50)[0].find("nearest sample tells"));
   EXPECT_LT(warn(7, 3, 50)[0].size(), 300u);
-  EXPECT_NE(std::string::npos, warn(7, 3, 50)[0].find(". -scale, -fill-gaps or "));
+  EXPECT_NE(std::string::npos, warn(7, 3, 50)[0].find(". -scale or -fill-gaps may "));
   parameters.fill_gaps = true; // what was given is not advised
   EXPECT_EQ(std::string::npos, warn(7, 3, 50)[0].find("-fill-gaps"));
+  sampling = SamplingSummary{{0.0, 0.0, 0.0, 1.0}, LocalDimension::Volume, 1.0f, 1.0f};
+  ASSERT_EQ(1u, warn(7, 3, 50).size());
+  EXPECT_EQ(std::string::npos, warn(7, 3, 50)[0].find("lines of samples"));
+  EXPECT_NE(std::string::npos, warn(7, 3, 50)[0].find("noisy or outliers"));
   ASSERT_EQ(1u, warn(0, 0, 25).size());
   EXPECT_NE(std::string::npos, warn(0, 0, 25)[0].find("always saying the same"));
   EXPECT_EQ(2u, warn(7, 3, 25).size());
   Report none;
-  warnOfScores({scoreHeldOut({})}, parameters, none);
+  warnOfScores({scoreHeldOut({})}, parameters, sampling, none);
   EXPECT_TRUE(none.warnings.empty());
 }
 
@@ -177,7 +182,7 @@ TEST(Validation, SaysWhereErrorsAreTooSmall)
                          1.0f});
     }
     Report report;
-    warnOfScores({scoreHeldOut(samples)}, {}, report);
+    warnOfScores({scoreHeldOut(samples)}, {}, {}, report);
     return report.warnings;
   };
   EXPECT_TRUE(warn(29, 29).empty());

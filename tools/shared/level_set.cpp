@@ -28,11 +28,12 @@ describe(const pcl_uvol::LevelSetSummary& summary,
   if (summary.logarithmic)
     facts.emplace_back("values" + of_isovalue, "logarithms");
   if (summary.steps.empty()) {
-    facts.emplace_back("level set" + of_isovalue,
-                       std::string("none: smoothing would not bring the surface nearer "
-                                   "to the true one, so the field is taken as it is") +
-                           (summary.smoothed ? " but for its outliers" : ""),
-                       Fact::Members());
+    facts.emplace_back(
+        "level set" + of_isovalue,
+        std::string("none: smoothing is not expected to bring the surface "
+                    "nearer to the true one, so the field is taken as it is") +
+            (summary.smoothed ? " but for its outliers" : ""),
+        Fact::Members());
     return facts;
   }
   facts.emplace_back("mu" + of_isovalue,
