@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace pcl_uvol {
 
@@ -91,8 +92,9 @@ dropIsopoints(pcl::PointCloud<PointIso>& isopoints,
          [&](const PointIso& point) { return point.error <= *parameters.max_error; });
   if (parameters.automatic_max_error) {
     const PointIso* const first = isopoints.data();
+    const std::vector<std::uint8_t> is_known = known.find(isopoints, edges);
     drop("removed_by_error", [&](const PointIso& point) {
-      return known.contain(point, edges[static_cast<std::size_t>(&point - first)]);
+      return is_known[static_cast<std::size_t>(&point - first)] != 0;
     });
   }
   if (parameters.drop_bridged)

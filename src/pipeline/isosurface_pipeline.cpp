@@ -172,10 +172,8 @@ finish(const Dataset& samples,
       chooseIsopoints(view, edges, parameters, threads, isopoints, report);
   if (gaps)
     gaps->judge(parameters, threads, isopoints, edges, choice, report);
-  const KnownIsopoints known(view,
-                             parameters.isosurface.scale,
-                             sampling,
-                             gaps ? &gaps->getSummary() : nullptr);
+  const KnownIsopoints known(
+      view, parameters.isosurface, sampling, gaps ? &gaps->getSummary() : nullptr);
   dropIsopoints(isopoints, edges, choice, parameters, known, report);
   if (!parameters.mesh) // which has counted vertices that are not on caps
     countSupports(isopoints, report);

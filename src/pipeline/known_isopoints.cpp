@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/known_isopoints.h"
 
+#include "common/scalar_field.h"
 #include "pipeline/gap_widths.h"
 #include "pipeline/stretched_edges.h"
 
 #include <algorithm>
 #include <cstdint>
+#include <map>
 
 namespace pcl_uvol {
 
@@ -29,6 +31,55 @@ has(IsoSupport support, const PointIso& point)
   return point.support == static_cast<std::uint8_t>(support);
 }
 
+/** Values that many ends of the edges of an isovalue have. */
+class CommonValues {
+public:
+  CommonValues(const CloudView& samples,
+               const ScalarField& field,
+               const IsoEdges& edges,
+               std::size_t first,
+               std::size_t last)
+      : samples_(samples)
+      , field_(field)
+      , least_(common_share * 2.0 * static_cast<double>(last - first))
+  {
+    for (std::size_t i = first; i < last; ++i)
+      for (const std::uint32_t end : {edges[i].first, edges[i].second})
+        ++counts_[read(end)];
+  }
+
+  /** Whether both ends of an edge have one, and neither lies far beyond the isovalue,
+   * as the code of a missing value does. */
+  bool
+  contain(const IsoEdge& edge) const
+  {
+    const auto is_common = [&](std::uint32_t end) {
+      return static_cast<double>(counts_.at(read(end))) >= least_;
+    };
+    return std::min(edge.t, 1.0f - edge.t) >= least_part && is_common(edge.first) &&
+           is_common(edge.second);
+  }
+
+private:
+  /** Share of the ends that have a common value: of two materials it is a half, of
+   * numbers with a few digits next to nothing. */
+  static constexpr double common_share = 0.05;
+
+  /** Of the edge, from either end to the root. */
+  static constexpr float least_part = 0.01f;
+
+  double
+  read(std::uint32_t sample) const
+  {
+    return field_.read(samples_.point(sample));
+  }
+
+  const CloudView& samples_;
+  ScalarField field_;
+  double least_;
+  std::map<double, std::size_t> counts_;
+};
+
 /** The error of a place on an edge of which only its ends are known: the surface lies
  * between these. */
 float
@@ -46,11 +97,12 @@ isKnown(const PointIso& point)
 }
 
 KnownIsopoints::KnownIsopoints(const CloudView& samples,
-                               const Eigen::Array3f& scale,
+                               const IsosurfaceParameters& parameters,
                                const std::optional<SamplingSummary>& sampling,
                                const GapFilling* gaps)
     : samples_(samples)
-    , scale_(scale)
+    , field_(parameters.field)
+    , scale_(parameters.scale)
     , lies_all_around_(sampling && sampling->most == LocalDimension::Volume)
 {
   if (gaps && gaps->predicted > 0)
@@ -61,8 +113,29 @@ KnownIsopoints::KnownIsopoints(const CloudView& samples,
                         0.5f * sampling->across);
 }
 
+std::vector<std::uint8_t>
+KnownIsopoints::find(const pcl::PointCloud<PointIso>& isopoints,
+                     const IsoEdges& edges) const
+{
+  std::vector<std::uint8_t> jumps(isopoints.size());
+  if (lies_all_around_)
+    for (std::size_t first = 0, last = 0; first < isopoints.size(); first = last) {
+      while (last < isopoints.size() &&
+             isopoints[last].isovalue == isopoints[first].isovalue)
+        ++last;
+      const CommonValues common(
+          samples_, ScalarField(samples_.fields, field_), edges, first, last);
+      for (std::size_t i = first; i < last; ++i)
+        jumps[i] = common.contain(edges[i]);
+    }
+  std::vector<std::uint8_t> known(isopoints.size());
+  for (std::size_t i = 0; i < isopoints.size(); ++i)
+    known[i] = contain(isopoints[i], edges[i], jumps[i] != 0);
+  return known;
+}
+
 bool
-KnownIsopoints::contain(const PointIso& point, const IsoEdge& edge) const
+KnownIsopoints::contain(const PointIso& point, const IsoEdge& edge, bool is_jump) const
 {
   if (has(IsoSupport::Predicted, point)) {
     // The normal is a covector: of a unit length in the stretched space it is longer by
@@ -77,8 +150,7 @@ KnownIsopoints::contain(const PointIso& point, const IsoEdge& edge) const
     return is_crossing || (isKnown(point) &&
                            point.error < (1.0f - rounding) * errorOnEdge(point, edge));
   return is_crossing || isKnown(point) ||
-         (lies_all_around_ &&
-          point.error <= (1.0f + rounding) * errorOnEdge(point, edge));
+         (is_jump && point.error <= (1.0f + rounding) * errorOnEdge(point, edge));
 }
 
 } // namespace pcl_uvol

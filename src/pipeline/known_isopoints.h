@@ -12,7 +12,10 @@
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace pcl_uvol {
 
@@ -23,27 +26,36 @@ isKnown(const PointIso& point);
 
 /** \brief Tells which isopoints are known.
  *
- * Besides those that isKnown() tells of, where samples lie all around the crossings of
- * values that jump, as at the border of a material: all that can be known is that the
- * surface lies between the two samples. Where an edge bridges a gap or slips past other
- * samples that is not enough. Where samples lie on lines or sheets the crossings
- * between neighbours of one of these: their edges are short beside the gaps, and the
- * surface does cross there. Predicted isopoints have no edge between measured samples:
- * their error must be at most half of the gap, in the stretched space. */
+ * Besides those that isKnown() tells of, where samples lie all around the crossings
+ * between two values that many samples have, as at the border of a material: all that
+ * can be known is that the surface lies between the two samples. Where an edge bridges
+ * a gap or slips past other samples that is not enough. Where samples lie on lines or
+ * sheets the crossings between neighbours of one of these: their edges are short beside
+ * the gaps, and the surface does cross there. Predicted isopoints have no edge between
+ * measured samples: their error must be at most half of the gap, in the stretched
+ * space. */
 class KnownIsopoints {
 public:
   /** \param samples between which the edges lie, which must outlive this
+   * \param parameters that the isopoints were extracted by
    * \param gaps null, if they were not filled */
   KnownIsopoints(const CloudView& samples,
-                 const Eigen::Array3f& scale,
+                 const IsosurfaceParameters& parameters,
                  const std::optional<SamplingSummary>& sampling,
                  const GapFilling* gaps);
 
-  bool
-  contain(const PointIso& point, const IsoEdge& edge) const;
+  /** \param isopoints one isovalue after another
+   * \return one per isopoint: 1 if it is known */
+  std::vector<std::uint8_t>
+  find(const pcl::PointCloud<PointIso>& isopoints, const IsoEdges& edges) const;
 
 private:
+  /** \param is_jump whether values jump along its edge */
+  bool
+  contain(const PointIso& point, const IsoEdge& edge, bool is_jump) const;
+
   const CloudView& samples_;
+  std::string field_;
   Eigen::Array3f scale_;
   bool lies_all_around_;
   float half_gap_ = 0.0f; ///< in the stretched space; 0: there are no gaps

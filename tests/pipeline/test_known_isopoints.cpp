@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <pcl/conversions.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -112,6 +113,33 @@ TEST(KnownIsopoints, DoNotSlipPastSamples)
       EXPECT_LE(point.x, 3.0f);
     }
   }
+}
+
+/** Outliers among other values, and codes of missing values among two of them. */
+TEST(KnownIsopoints, DoNotSurroundOutliers)
+{
+  for (const bool has_steps : {false, true})
+    for (const float spike : {-9999.0f, 1000.0f}) {
+      SCOPED_TRACE(std::to_string(has_steps) + ' ' + std::to_string(spike));
+      const auto samples = sampleBall();
+      pcl::PointCloud<pcl::PointXYZI> cloud;
+      pcl::fromPCLPointCloud2(samples->cloud, cloud);
+      for (std::size_t i = 0; i < cloud.size(); ++i)
+        if (i % 30 == 0)
+          cloud[i].intensity = spike;
+        else if (!has_steps)
+          cloud[i].intensity = 3.1f - cloud[i].getVector3fMap().norm();
+      const auto count_far = [&](bool only_known) {
+        const auto isopoints =
+            uvol_test::toIsopoints(extract(toDataset(cloud), 2.5, only_known));
+        EXPECT_GT(isopoints.size(), has_steps ? 500u : 100u);
+        return std::count_if(isopoints.begin(), isopoints.end(), [](const auto& point) {
+          return std::abs(point.getVector3fMap().norm() - 0.6f) > 0.2f;
+        });
+      };
+      EXPECT_GT(count_far(false), 70);
+      EXPECT_LE(count_far(true), 8);
+    }
 }
 
 } // namespace

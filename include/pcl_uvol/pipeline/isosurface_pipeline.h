@@ -145,9 +145,9 @@ struct PCL_UVOL_EXPORTS IsosurfacePipelineParameters {
   std::optional<double> max_error;
   /** Take the bound of the error from the samples instead: half the distance of the two
    * samples that an isopoint lies between, its `edge_length`. Crossings with lines or
-   * sheets of samples stay, whose edges are short beside the gaps, and those of a jump
-   * of the values where samples lie all around; between predicted samples the bound is
-   * half a gap, in the stretched space. */
+   * sheets of samples stay, whose edges are short beside the gaps, and where samples
+   * lie all around those between two values that many samples have; between predicted
+   * samples the bound is half a gap, in the stretched space. */
   bool automatic_max_error = false;
   /** Leave out isopoints in gaps of the sampling, see IsoSupport::Bridged. */
   bool drop_bridged = false;
