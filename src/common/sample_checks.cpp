@@ -32,8 +32,8 @@ warnOfConflicts(std::uint64_t samples, std::size_t fields, Report& report)
   percent << std::round(100.0 * share);
   report.warnings.push_back(
       "At " + percent.str() + " % of the " + std::to_string(samples) +
-      " places of samples several lie whose values differ, and their lower median is "
-      "taken: -where chooses among them, as in -where \"experiment=1\".");
+      " places of samples several lie whose values differ, and their median is taken: "
+      "-where chooses among them, as in -where \"experiment=1\".");
 }
 
 } // namespace pcl_uvol

@@ -180,9 +180,10 @@ mergeDuplicates(Samples& samples, unsigned threads, Report& report)
       ++end;
     members.assign(order.begin() + static_cast<std::ptrdiff_t>(begin),
                    order.begin() + static_cast<std::ptrdiff_t>(end));
-    const std::uint32_t source = chooseRepresentative(
+    const auto found = findRepresentative(
         members, [&](auto member) { return samples.values[member]; }, conflicting);
-    merged.append(samples.span(source, 1));
+    merged.append(samples.span(found.source, 1));
+    merged.values.back() = found.value;
     begin = end;
   }
   report.count("duplicates", samples.size() - merged.size());

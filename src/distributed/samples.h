@@ -100,8 +100,8 @@ normalizeTogether(Samples& samples,
                   unsigned threads,
                   Report& report);
 
-/** \brief Leave one of samples that coincide: the lower median of their values, and the
- * first, by source, that has it, stands for all.
+/** \brief Leave one of samples that coincide, with the median of their values; see
+ * findRepresentative, for which members are in order of their sources.
  * \param samples come out sorted
  * \param report gets the counts "duplicates" and "conflicting_duplicates" */
 PCL_UVOL_EXPORTS void

@@ -129,7 +129,7 @@ struct FieldInterpolator::Group {
     model = makeModel(sampled, parameters, frames, own_names, cloud, threads, report);
   }
 
-  /** Values into leaf order; a merged sample takes the lower median of its members'. */
+  /** Values into leaf order; a merged sample takes the median of its members'. */
   void
   gatherValues(unsigned threads, Report& report)
   {
@@ -146,9 +146,10 @@ struct FieldInterpolator::Group {
     for (const SampleSet::Merged& merged : samples.getMerged())
       for (std::size_t f = 0; f < fields.size(); ++f) {
         members.assign(merged.members.begin(), merged.members.end());
-        const std::uint32_t source = chooseRepresentative(
-            members, [&](auto member) { return columns[f][member]; }, conflicting);
-        sampled.values[merged.sample * fields.size() + f] = columns[f][source];
+        sampled.values[merged.sample * fields.size() + f] =
+            findRepresentative(
+                members, [&](auto member) { return columns[f][member]; }, conflicting)
+                .value;
       }
     report.count("conflicting_duplicates", conflicting);
   }

@@ -59,22 +59,22 @@ gatherFields(SampleSet::ConstPtr samples,
   sampled.samples = std::move(samples);
   sampled.fields = columns.size();
   sampled.values.resize(sampled.samples->size() * columns.size());
-  const auto put = [&](std::size_t sample, std::size_t field, std::size_t point) {
+  const auto put = [&](std::size_t sample, std::size_t field, double value) {
     // Adding zero turns -0 into 0, so that medians do not depend on its sign.
-    sampled.values[sample * columns.size() + field] =
-        frames[field].apply(columns[field][point]) + 0.0;
+    sampled.values[sample * columns.size() + field] = frames[field].apply(value) + 0.0;
   };
   for (std::size_t i = 0; i < sampled.samples->size(); ++i)
     for (std::size_t f = 0; f < columns.size(); ++f)
-      put(i, f, sampled.samples->getInputIndex(i));
+      put(i, f, columns[f][sampled.samples->getInputIndex(i)]);
   std::uint64_t conflicting = 0;
   for (const SampleSet::Merged& merged : sampled.samples->getMerged())
     for (std::size_t f = 0; f < columns.size(); ++f) {
       std::vector<std::uint32_t> members(merged.members.begin(), merged.members.end());
       put(merged.sample,
           f,
-          chooseRepresentative(
-              members, [&](auto member) { return columns[f][member]; }, conflicting));
+          findRepresentative(
+              members, [&](auto member) { return columns[f][member]; }, conflicting)
+              .value);
     }
   report.count("conflicting_duplicates", conflicting);
   return sampled;

@@ -30,7 +30,7 @@ using TakeDerivatives =
  * Per sample a least-squares cubic or quadratic through its 40 nearest samples, see
  * BucketFitter: gradients are exact for cubics, of third order otherwise, and second
  * derivatives of second order. Where samples lie on few planes or lines, derivatives
- * across them are 0. Points at one place count as one sample, with the lower median of
+ * across them are 0. Points at one place count as one sample, with the median of
  * their values, and get the same derivatives.
  * \param columns [field][point] values, none of which a point takes part in that has no
  * finite value of one of them

@@ -64,10 +64,10 @@ gatherValues(const SampleSet& samples,
   std::vector<std::uint32_t> members;
   for (const SampleSet::Merged& merged : samples.getMerged()) {
     members.assign(merged.members.begin(), merged.members.end());
-    const std::uint32_t source = chooseRepresentative(
+    const auto found = findRepresentative(
         members, [&](auto member) { return input_values[member]; }, conflicting);
-    scalar.values[merged.sample] = input_values[source];
-    scalar.sources[merged.sample] = source;
+    scalar.values[merged.sample] = found.value;
+    scalar.sources[merged.sample] = found.source;
   }
   report.count("conflicting_duplicates", conflicting);
   return scalar;

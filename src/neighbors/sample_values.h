@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 namespace pcl_uvol {
@@ -46,32 +47,48 @@ pointsWithValue(const std::vector<Value>& values,
 /** \brief The scalar in leaf order. */
 struct SampleValues {
   std::vector<float> values;
-  std::vector<std::uint32_t> sources; ///< input index whose value it is
+  std::vector<std::uint32_t> sources; ///< input index whose fields isopoints carry
 };
 
-/** \brief Who stands for members that coincide: the first that has the lower median of
- * their values.
+/** \brief What stands for members that coincide. */
+template <typename Value>
+struct Representative {
+  std::uint32_t source; ///< the first member that has the lower middle value
+  Value value;          ///< the median
+};
+
+/** \brief The median of values at one place: that of an even number is the mean of the
+ * two in the middle, as the lower one alone would draw surfaces to one side. The mean
+ * of two numbers of classes is none of them, but lies on the border of both, as an
+ * isosurface between them has to.
  * \param members in their order; come out sorted by value
  * \param value_of a member
  * \param conflicting gets one more if values differ */
 template <typename ValueOf>
-std::uint32_t
-chooseRepresentative(std::vector<std::uint32_t>& members,
-                     const ValueOf& value_of,
-                     std::uint64_t& conflicting)
+auto
+findRepresentative(std::vector<std::uint32_t>& members,
+                   const ValueOf& value_of,
+                   std::uint64_t& conflicting)
 {
+  using Value = std::decay_t<decltype(value_of(members.front()))>;
   std::stable_sort(members.begin(), members.end(), [&](auto a, auto b) {
     return value_of(a) < value_of(b);
   });
   conflicting += value_of(members.front()) != value_of(members.back());
-  const auto median = value_of(members[(members.size() - 1) / 2]);
-  return *std::find_if(members.begin(), members.end(), [&](auto member) {
-    return value_of(member) == median;
-  });
+  const Value lower = value_of(members[(members.size() - 1) / 2]);
+  const Value upper = value_of(members[members.size() / 2]);
+  const std::uint32_t source =
+      *std::find_if(members.begin(), members.end(), [&](auto member) {
+        return value_of(member) == lower;
+      });
+  // Halves are added, as the sum may be beyond all numbers.
+  const double mean =
+      0.5 * static_cast<double>(lower) + 0.5 * static_cast<double>(upper);
+  return Representative<Value>{source, static_cast<Value>(mean)};
 }
 
-/** \brief Bring values into leaf order; a merged sample takes the lower median of its
- * members' values, and becomes the member that has it.
+/** \brief Bring values into leaf order; a merged sample takes the median of its
+ * members' values, see findRepresentative.
  * \param report gets the count "conflicting_duplicates": merged samples of unequal
  * values */
 SampleValues

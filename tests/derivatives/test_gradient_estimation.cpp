@@ -286,6 +286,8 @@ TEST(GradientEstimation, PointsWithoutAValueGetNone)
   (*cloud)[3].x = std::numeric_limits<float>::quiet_NaN();
   (*cloud)[5].intensity = std::numeric_limits<float>::infinity();
   (*cloud)[7] = (*cloud)[8];
+  (*cloud)[7].intensity += 0.5f; // the median of two is their mean
+  (*cloud)[8].intensity -= 0.5f;
   Estimation estimation;
   estimation.setInputCloud(cloud);
   Gradients gradients;

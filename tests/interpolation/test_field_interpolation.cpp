@@ -314,6 +314,22 @@ TEST_P(EveryModel, StageKeepsItsModelUntilSomethingChanges)
   EXPECT_FALSE(areEqual(first, second));
 }
 
+TEST(FieldInterpolation, SamplesAtOnePlaceTakeTheirMedian)
+{
+  Places places = randomPlaces(300, 1);
+  const Places once = places;
+  places.insert(places.end(), once.begin(), once.end());
+  std::vector<double> errors(300, 0.125);
+  errors.resize(600, -0.125);
+  std::size_t point = 0;
+  const auto samples =
+      sampleFunctions(places, {[&](const Vector3d&) { return 3.0 + errors[point++]; }});
+  const auto result =
+      interpolate(samples, parametersOf(InterpolationModel::Nearest), once);
+  for (const double value : result.values)
+    EXPECT_EQ(value, 3.0);
+}
+
 TEST(FieldInterpolation, RefusesWhatItCannotUse)
 {
   const auto samples =

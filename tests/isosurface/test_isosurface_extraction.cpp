@@ -390,13 +390,16 @@ TEST(IsosurfaceExtraction, SamplesAtTheIsovalueGiveOneIsopoint)
   }
 }
 
-TEST(IsosurfaceExtraction, DuplicatesTakeTheLowerMedian)
+/** \param values at the origin, whose median is 0.5, in their order; at x = 1 it is 1
+ */
+void
+expectMedian(const std::vector<float>& values)
 {
-  Cloud::Ptr cloud(new Cloud(2, 1));
-  (*cloud)[1].x = 1.0f;
-  (*cloud)[1].intensity = 1.0f;
-  for (const float value : {0.5f, 9.0f}) { // with 0: median 0.5
-    cloud->push_back((*cloud)[0]);
+  Cloud::Ptr cloud(new Cloud(1, 1));
+  (*cloud)[0].x = 1.0f;
+  (*cloud)[0].intensity = 1.0f;
+  for (const float value : values) {
+    cloud->push_back({});
     cloud->back().intensity = value;
   }
   Extraction extraction;
@@ -406,9 +409,28 @@ TEST(IsosurfaceExtraction, DuplicatesTakeTheLowerMedian)
   extraction.extract(surface);
   ASSERT_EQ(1u, surface.size());
   EXPECT_EQ(0.5f, surface[0].x);
-  EXPECT_EQ(2u, extraction.getReport().getCount("duplicates"));
+  EXPECT_EQ(values.size() - 1, extraction.getReport().getCount("duplicates"));
   EXPECT_EQ(1u, extraction.getReport().getCount("conflicting_duplicates"));
-  EXPECT_EQ((EdgeSet{{1, 2}}), edgeSet(extraction.getEdges()));
+  std::vector<float> sorted = values;
+  std::sort(sorted.begin(), sorted.end());
+  const auto lower =
+      std::find(values.begin(), values.end(), sorted[(values.size() - 1) / 2]);
+  const auto source = static_cast<std::uint32_t>(1 + (lower - values.begin()));
+  EXPECT_EQ((EdgeSet{{0, source}}), edgeSet(extraction.getEdges()));
+}
+
+TEST(IsosurfaceExtraction, DuplicatesTakeTheMedianInAnyOrder)
+{
+  for (std::vector<float> values : std::vector<std::vector<float>>{
+           {0.25f, 0.75f},
+           {0.0f, 0.5f, 9.0f},
+           {-3e38f, 0.25f, 0.75f, 3e38f},
+           {0.25f, 0.25f, 0.75f, 0.75f},
+           {-1.0f, 0.5f, 0.5f, 0.5f}, // an even number that agree
+           {-2.0f, -1.0f, 0.5f, 2.0f, 9.0f}})
+    do
+      expectMedian(values);
+    while (std::next_permutation(values.begin(), values.end()));
 }
 
 TEST(IsosurfaceExtraction, UnusableSamplesAreDroppedAndCounted)

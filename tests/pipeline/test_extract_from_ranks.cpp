@@ -249,7 +249,9 @@ TEST(RankExtraction, MergesDuplicatesAcrossRanks)
   const auto once = uvol_test::makeCloud("uniform", 1500, 4);
   const Cloud::Ptr cloud(new Cloud(*once));
   *cloud += *once;
-  for (std::size_t i = 0; i < 300; ++i) {
+  for (std::size_t i = 1500; i < 3000; i += 4) // two values
+    (*cloud)[i].intensity -= 0.02f;
+  for (std::size_t i = 0; i < 300; ++i) { // three
     cloud->push_back((*once)[i]);
     cloud->back().intensity += 0.01f;
   }

@@ -92,7 +92,7 @@ estimateGradients(const CloudView& cloud,
  * gradient (thesis 3.6): with the quadratic scheme from the polynomial's second
  * derivatives, with the linear one from the gradients of the neighbours' normalised
  * gradients (thesis 3.3). Where samples lie on a plane or a line, the derivatives
- * across it are 0. Exact duplicates count as one sample, with the lower median of their
+ * across it are 0. Exact duplicates count as one sample, with the median of their
  * values.
  * \tparam PointInT with x, y, z
  * \tparam PointOutT with gradient_x/y/z; with mean_curvature it gets that too */

@@ -379,8 +379,11 @@ public:
   /** \brief Extract the isopoints of all isovalues.
    *
    * Samples with a non-finite coordinate or scalar are left out, exact duplicates
-   * merged (to the lower median of their values); both are counted. An isovalue outside
-   * the range of the values gives no points and a warning in the report.
+   * merged: their value is the median, of an even number the mean of the two in the
+   * middle, which lies between two classes; the fields that isopoints carry, this one
+   * as well, come from the first point that has the lower of these. Both are counted.
+   * An isovalue outside the range of the values gives no points and a warning in the
+   * report.
    * \param isopoints what is found; its points replace those that were there
    * \throws InvalidArgument for a missing or empty cloud, an unknown field, no or a
    * non-finite isovalue, a bad scale, or no usable sample; isopoints are then untouched
