@@ -36,12 +36,18 @@ struct TextColumn {
   double
   take(std::string_view text, std::size_t line);
 
-  /** \brief Names that happen to be numbers ("34873" beside "B1-001") make no column of
-   * numbers. */
+  /** \brief Names may be numbers, too ("34873" beside "A-117"), where one in ten is
+   * none; fewer, and a single one, rather are slips in a column of numbers. */
   bool
   holdsNames() const
   {
-    return texts > numbers;
+    return !isMostlyNumbers() || (texts > 1 && 10 * texts >= texts + numbers);
+  }
+
+  bool
+  isMostlyNumbers() const
+  {
+    return numbers >= texts;
   }
 
   /** \brief The smallest type that keeps the cells as they are given. */

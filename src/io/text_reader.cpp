@@ -376,23 +376,37 @@ TextTable::scanNames()
   }
 }
 
+/** Numbers that are more than names may be are values. */
 void
 TextTable::checkColumn(const TextColumn& column, bool coordinate) const
 {
-  if (column.texts > 0 && (coordinate || !column.holdsNames()))
+  const bool has_values = column.labels.empty() && column.isMostlyNumbers();
+  if (column.texts > 0 && (coordinate || has_values))
     throwUnreadable(path_,
                     column.first_text_line,
                     quoteText(column.first_text) + " in column " +
                         quoteText(column.name) + " is no number");
 }
 
+/** Where numbers were meant, the note tells which cell to mend. */
+void
+addNames(const TextColumn& column, RecordInfo& info)
+{
+  info.labels.emplace(column.name, column.labels);
+  if (column.isMostlyNumbers())
+    info.notes.push_back("The column " + quoteText(column.name) +
+                         " is kept as names, since " + quoteText(column.first_text) +
+                         " in line " + std::to_string(column.first_text_line) +
+                         " is no number.");
+}
+
 RecordInfo
 TextTable::describe()
 {
   checkGuess();
+  scanNames();
   for (const TextColumn& column : columns_)
     checkColumn(column, &column - columns_.data() < 3);
-  scanNames();
   RecordInfo info;
   info.count = count_;
   info.notes = notes_;
@@ -405,8 +419,8 @@ TextTable::describe()
       continue;
     }
     if (column.holdsNames())
-      info.labels.emplace(column.name, column.labels);
-    if (column.inexact)
+      addNames(column, info);
+    else if (column.inexact)
       info.notes.push_back("The column " + quoteText(column.name) +
                            " holds integers beyond 2^53, which lose digits.");
     const bool coordinate = &column - columns_.data() < 3;

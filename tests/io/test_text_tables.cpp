@@ -114,6 +114,52 @@ TEST(TextTables, NamesAreLabels)
             load("x,y,z,n\n1,2,3,a\n1,2,3,b\n").labels);
 }
 
+/** Rows of names, first those of letters, "007" and "7" in turn. */
+std::string
+namesInRows(std::size_t letters, std::size_t numbers)
+{
+  std::string text = "x,y,z,hole\n";
+  for (std::size_t i = 0; i < letters; ++i)
+    text += "1,2,3,A-117\n";
+  for (std::size_t i = 0; i < numbers; ++i)
+    text += i % 2 == 0 ? "1,2,3,7\n" : "1,2,3,\"007\"\n";
+  return text;
+}
+
+TEST(TextTables, ManyNamesMayBeNumbers)
+{
+  const auto third = load(namesInRows(2, 4));
+  EXPECT_EQ(third.labels, (LabelNames{{"hole", {"007", "7", "A-117"}}}));
+  const double labels[] = {2, 2, 1, 0, 1, 0};
+  for (std::size_t i = 0; i < 6; ++i)
+    EXPECT_EQ(labels[i], valueOf(third, "hole", i)) << i;
+  ASSERT_EQ(third.notes.size(), 1u);
+  EXPECT_EQ(third.notes[0],
+            "The column 'hole' is kept as names, since 'A-117' in line 2 is no "
+            "number.");
+  EXPECT_TRUE(load(namesInRows(5, 4)).notes.empty());
+  // A tenth is enough; less, and a single one, are slips.
+  EXPECT_EQ(load(namesInRows(2, 18)).labels.at("hole").size(), 3u);
+  for (const auto& [letters, numbers] : {std::pair(2, 19), std::pair(1, 3)})
+    EXPECT_NE(errorOf(namesInRows(letters, numbers))
+                  .find("line 2: 'A-117' in column 'hole' is no number"),
+              std::string::npos);
+  EXPECT_NE(errorOf("x,y,z\n1,2,3\n1,a,3\n1,b,3\n").find("'a' in column 'y'"),
+            std::string::npos);
+  // Names beyond 2^53 lose no digits.
+  EXPECT_EQ(load(namesInRows(3, 0) + "1,2,3,9007199254740993\n").notes.size(), 0u);
+}
+
+/** Different numbers that are more than names may be are values. */
+TEST(TextTables, ManySlipsInValuesAreRefused)
+{
+  std::string text = "x,y,z,cu\n";
+  for (int i = 0; i < (1 << 16); ++i)
+    text += "1,2,3," + std::to_string(i) + (i % 5 == 0 ? "\n1,2,3,low\n" : "\n");
+  EXPECT_NE(errorOf(text).find("line 3: 'low' in column 'cu' is no number"),
+            std::string::npos);
+}
+
 TEST(TextTables, NamesThatDescribeSingleRowsAreLeftOut)
 {
   std::string text = "x,y,z,name\n";
