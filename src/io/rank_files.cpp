@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/rank_files.h"
 
+#include "common/printable.h"
 #include "common/records.h"
 #include "common/scalar_field.h"
 #include "distributed/byte_stream.h"
@@ -178,6 +179,20 @@ struct Layout {
                           "; write all of them with the same arrays.");
   }
 
+  /** Numbers of another piece would be taken for those of names.
+   * \throws InvalidArgument if a field holds names here and none there */
+  void
+  requireNamesIn(const Layout& other) const
+  {
+    for (const auto& [field, names] : labels)
+      if (findLabels(fields, labels, field) &&
+          !findLabels(other.fields, other.labels, field))
+        throw InvalidArgument("The field " + quoteText(field) +
+                              " holds names in the piece '" + path +
+                              "' and numbers in '" + other.path +
+                              "': join them to one file, where names may be numbers.");
+  }
+
   /** Take what another piece has.
    * \throws InvalidArgument for other fields */
   void
@@ -190,6 +205,8 @@ struct Layout {
       return;
     }
     requireFieldsOf(other);
+    requireNamesIn(other);
+    other.requireNamesIn(*this);
     double_coordinates |= other.double_coordinates;
     if (box != other.box)
       box = {};

@@ -220,6 +220,18 @@ TEST(RankFiles, CountTheNamesOfAllPieces)
     EXPECT_EQ(labels[i], valueOf(alone.parts[0], "hole", i)) << i;
 }
 
+/** Numbers of holes would be looked up among the names of the other piece. */
+TEST(RankFiles, RefuseNamesInOnePieceAndNumbersInAnother)
+{
+  const TemporaryFolder folder;
+  writeFile(folder / "a.csv", "x,y,z,hole\n0,0,0,1\n1,0,0,34873\n");
+  writeFile(folder / "b.csv", "x,y,z,hole\n2,0,0,A-117\n3,0,0,34873\n4,0,0,B\n");
+  for (const std::size_t ranks : {1, 2, 3})
+    expectComplaint("The field 'hole' holds names in the piece '" + folder / "b.csv" +
+                        "' and numbers in '" + folder / "a.csv" + "': join",
+                    complaintOf({folder / "a.csv", folder / "b.csv"}, ranks));
+}
+
 TEST(RankFiles, RefuseWhatDoesNotFitTogether)
 {
   const TemporaryFolder folder;
