@@ -18,7 +18,6 @@
 #include <pcl_uvol/vtk/cluster_surface.h>
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <sstream>
 
@@ -26,6 +25,7 @@ namespace {
 
 using pcl_uvol::Dataset;
 using pcl_uvol::Report;
+using uvol_tools::Fact;
 using uvol_tools::Facts;
 using uvol_tools::Options;
 using uvol_tools::UsageError;
@@ -193,14 +193,22 @@ writeCluster(const Options& options,
       arguments.output, makeVertices(dataset, surface), surface.mesh.triangles, save);
 }
 
-/** "0: 812, 1: 77, noise: 5". */
-std::string
-describeSizes(const std::vector<std::int32_t>& labels)
+/** Points of each cluster, by label; negative labels are no clusters. */
+std::map<std::int32_t, std::size_t>
+countMembers(const std::vector<std::int32_t>& labels)
 {
-  constexpr std::size_t most = 12;
   std::map<std::int32_t, std::size_t> sizes;
   for (const std::int32_t label : labels)
-    ++sizes[label < 0 ? std::numeric_limits<std::int32_t>::max() : label];
+    if (label >= 0)
+      ++sizes[label];
+  return sizes;
+}
+
+/** "0: 812, 1: 77". */
+std::string
+describeSizes(const std::map<std::int32_t, std::size_t>& sizes)
+{
+  constexpr std::size_t most = 12;
   std::ostringstream text;
   std::size_t told = 0;
   for (const auto& [label, size] : sizes) {
@@ -208,14 +216,34 @@ describeSizes(const std::vector<std::int32_t>& labels)
       text << ", ... (" << sizes.size() << " in all)";
       break;
     }
-    text << (told == 1 ? "" : ", ");
-    if (label == std::numeric_limits<std::int32_t>::max())
-      text << "noise";
-    else
-      text << label;
-    text << ": " << size;
+    text << (told == 1 ? "" : ", ") << label << ": " << size;
   }
-  return text.str();
+  return sizes.empty() ? "none" : text.str();
+}
+
+/** People read the first sizes, programs all of them. */
+void
+tellSizes(const std::vector<std::int32_t>& labels, Facts& facts)
+{
+  const auto sizes = countMembers(labels);
+  Fact::Numbers names, members;
+  for (const auto& [label, size] : sizes) {
+    names.push_back(label);
+    members.push_back(static_cast<double>(size));
+  }
+  facts.emplace_back("clusters", describeSizes(sizes), members);
+  facts.emplace_back("labels", "", names);
+}
+
+/** What a clustering tells is known of labels that are given, but for why points have
+ * none. */
+void
+countLabels(const std::vector<std::int32_t>& labels, Report& report)
+{
+  const auto without =
+      std::count_if(labels.begin(), labels.end(), [](auto label) { return label < 0; });
+  report.count("points", labels.size());
+  report.count("in_no_cluster", static_cast<std::uint64_t>(without));
 }
 
 /** What the tool holds beside the points; grids of surfaces are looked at when their
@@ -281,9 +309,10 @@ run(int argc, char** argv)
   arguments.attributes.addFields(options, dataset, report);
   std::vector<pcl_uvol::ClusterNode> tree;
   const auto labels = findLabels(options, arguments, dataset, tree, report);
-  Facts facts = {{"input", arguments.input},
-                 {"output", arguments.output},
-                 {"clusters", describeSizes(labels)}};
+  Facts facts = {{"input", arguments.input}, {"output", arguments.output}};
+  tellSizes(labels, facts);
+  if (!arguments.attributes.areGiven())
+    countLabels(labels, report);
   if (!arguments.cluster.empty())
     writeCluster(options, arguments, dataset, labels, facts, report);
   else {

@@ -18,7 +18,7 @@ TEST_F(ClusterTool, FindsPlantedClusters)
     }
   }
   const auto result = run(attributes_);
-  EXPECT_NE(std::string::npos, result.out.find("clusters: 0: 150, 1: 100, 2: 50"))
+  EXPECT_NE(std::string::npos, result.out.find("clusters: 0: 150, 1: 100, 2: 50\n"))
       << result.out;
 }
 
@@ -178,6 +178,45 @@ TEST_F(ClusterTool, PointsWithMissingValuesAreInNoCluster)
     EXPECT_EQ(i % 10 == 3 ? -1 : truthOf(i), labels[i]) << i;
 }
 
+/** \param report of JSON, however it is broken into lines */
+void
+expectPart(const std::string& report, const std::string& part)
+{
+  std::string dense;
+  std::remove_copy(report.begin(), report.end(), std::back_inserter(dense), '\n');
+  dense.erase(std::remove(dense.begin(), dense.end(), ' '), dense.end());
+  EXPECT_NE(std::string::npos, dense.find(part)) << part << '\n' << report;
+}
+
+TEST_F(ClusterTool, NoiseAndMissingValuesAreCountedApart)
+{
+  uvol_test::writeFile(in_, tableOf("a,b,c,d", [](const Sample& s) {
+                         return s.index == 6 || s.index == 12 ? ",1,1,1"
+                                : s.index == 0                ? "900,900,900,900"
+                                                              : joined(s.attributes);
+                       }));
+  const auto result = run(attributes_ + "-json");
+  expectPart(result.out, R"("clusters":[147,100,50],"labels":[0,1,2])");
+  expectPart(result.out, R"("missing_values":2)");
+  expectPart(result.out, R"("noise":1)");
+}
+
+TEST_F(ClusterTool, ReportsTellSizesOfAllLabelsThatAreGiven)
+{
+  uvol_test::writeFile(in_, tableOf("a,truth", [](const Sample& s) {
+                         const int label =
+                             s.index < 16 ? 3 * static_cast<int>(s.index) - 3 : -1;
+                         return "0," + std::to_string(label);
+                       }));
+  const std::string choice = "-label truth -cluster 3 ";
+  const auto result = run(choice + "-json");
+  expectPart(result.out, R"("clusters":[1,1,1,1,1,1,1,1,1,1,1,1,1,1,1])");
+  expectPart(result.out, R"("labels":[0,3,6,9,12,15,18,21,24,27,30,33,36,39,42])");
+  expectPart(result.out, R"("in_no_cluster":285)");
+  const std::string shown = run(choice).out;
+  EXPECT_NE(std::string::npos, shown.find(" 33: 1, ... (15 in all)\n")) << shown;
+}
+
 TEST_F(ClusterTool, UnitsOfAttributesDoNotCountUnlessRaw)
 {
   uvol_test::Random random(4);
@@ -201,6 +240,7 @@ TEST_F(ClusterTool, NoClusterIsNoFailure)
   const auto result = run(attributes_ + "-min-size 200");
   EXPECT_EQ(0, result.exit_code) << result.err;
   EXPECT_NE(std::string::npos, result.err.find("Warning: No cluster")) << result.err;
+  EXPECT_NE(std::string::npos, result.out.find("clusters: none\n")) << result.out;
   const Dataset dataset = pcl_uvol::loadDataset(out_);
   EXPECT_EQ(std::vector<double>(points, -1.0), fieldOf(dataset, "label"));
   EXPECT_EQ(std::vector<double>(points, 0.0), fieldOf(dataset, "probability"));
