@@ -2,6 +2,7 @@
 #include "common/parameter_json.h"
 #include "multivariate/cluster_attributes.h"
 #include "multivariate/cluster_tree.h"
+#include "multivariate/rounded_attributes.h"
 #include "multivariate/spanning_tree.h"
 
 #include <algorithm>
@@ -201,6 +202,7 @@ clusterAttributes(const AttributeTable& table,
     clustering = assignMembers(tree, stabilities, chosen, reach);
   }
   countClusters(clustering, min_size, parameters, report);
+  warnOfRounding(table, clustering.labels, report);
   return clustering;
 }
 

@@ -60,6 +60,8 @@ tableOf(std::size_t columns, const std::vector<float>& values)
   pcl_uvol::AttributeTable table;
   for (std::size_t column = 0; column < columns; ++column)
     table.names.push_back("a" + std::to_string(column));
+  table.means.assign(columns, 0.0);
+  table.units.assign(columns, 1.0);
   table.values = values;
   table.points.resize(values.size() / columns);
   std::iota(table.points.begin(), table.points.end(), 0u);
