@@ -11,6 +11,12 @@
 
 namespace pcl_uvol {
 
+/** \brief What a surface stands for, and is said of it where it is a guess. */
+enum class SurfaceRole {
+  Isosurface,
+  ClusterBorder ///< between the samples of a cluster and the others
+};
+
 /** \brief The second half of the way, for isopoints that were extracted elsewhere, out
  * of core or by another process: normals, filters, fields and warnings.
  * \param samples between which the edges lie; with a box that repeats they count from
@@ -31,6 +37,7 @@ finishIsosurface(const Dataset& samples,
                  const std::optional<SamplingSummary>& sampling,
                  Communicator& communicator,
                  unsigned threads,
-                 Report&& report);
+                 Report&& report,
+                 SurfaceRole role = SurfaceRole::Isosurface);
 
 } // namespace pcl_uvol

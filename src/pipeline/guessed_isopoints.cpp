@@ -114,6 +114,19 @@ tellSmoothedGuesses(const Report& evolution, const SamplingSummary& sampling)
 }
 
 std::string
+tellGuessedBorder(const SurfaceGrounds& grounds)
+{
+  const std::size_t all = grounds.at_border + grounds.beside_gaps + grounds.guessed;
+  if (2 * all <= grounds.known)
+    return "";
+  return tellPart(
+      all,
+      grounds.known,
+      " % of the isopoints lie in or beside gaps between samples, and where "
+      "the border of the cluster runs there is a guess.");
+}
+
+std::string
 adviseRemedies(const IsosurfacePipelineParameters& parameters)
 {
   std::vector<std::string> remedies;

@@ -62,6 +62,11 @@ tellGuesses(const SurfaceGrounds& grounds,
 PCL_UVOL_EXPORTS std::string
 tellSmoothedGuesses(const Report& evolution, const SamplingSummary& sampling);
 
+/** \brief The same of the border of a cluster, which lies somewhere between its samples
+ * and the others. */
+std::string
+tellGuessedBorder(const SurfaceGrounds& grounds);
+
 /** \brief What may help where samples leave much open, of what was not asked for: a
  * sentence behind a space, empty if it was all. */
 std::string

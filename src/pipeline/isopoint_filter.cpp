@@ -105,6 +105,7 @@ dropIsopoints(pcl::PointCloud<PointIso>& isopoints,
 
 void
 warnOfGuesses(const SurfaceGrounds& grounds,
+              SurfaceRole role,
               const IsosurfacePipelineParameters& parameters,
               const std::optional<SamplingSummary>& sampling,
               Report& report)
@@ -113,7 +114,9 @@ warnOfGuesses(const SurfaceGrounds& grounds,
                                ? ""
                                : " A hold-out test tells how good it is (-validate).";
   const std::string warning =
-      tellGuesses(grounds, sampling, test + adviseRemedies(parameters));
+      role == SurfaceRole::ClusterBorder
+          ? tellGuessedBorder(grounds)
+          : tellGuesses(grounds, sampling, test + adviseRemedies(parameters));
   if (!warning.empty())
     report.warnings.push_back(warning);
 }

@@ -2,6 +2,7 @@
 // Which isopoints a pipeline keeps, and what it says of them.
 #pragma once
 
+#include "pipeline/finish_isosurface.h"
 #include "pipeline/guessed_isopoints.h"
 #include "pipeline/isopoint_choice.h"
 #include "pipeline/known_isopoints.h"
@@ -25,6 +26,7 @@ dropIsopoints(pcl::PointCloud<PointIso>& isopoints,
 /** \brief Warn where most isopoints do not rest on samples around them. */
 void
 warnOfGuesses(const SurfaceGrounds& grounds,
+              SurfaceRole role,
               const IsosurfacePipelineParameters& parameters,
               const std::optional<SamplingSummary>& sampling,
               Report& report);

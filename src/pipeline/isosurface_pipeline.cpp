@@ -163,7 +163,8 @@ finish(const Dataset& samples,
        const std::optional<SamplingSummary>& sampling,
        Communicator& communicator,
        unsigned threads,
-       Report&& report)
+       Report&& report,
+       SurfaceRole role)
 {
   const CloudView view = viewOf(samples.cloud);
   pcl::PointCloud<PointIso>& isopoints = found.vertices;
@@ -184,7 +185,7 @@ finish(const Dataset& samples,
                                                choice,
                                                found.is_on_cap,
                                                PeriodicBox{{}, sidesOf(parameters)});
-  warnOfGuesses(addTogether(own, communicator), parameters, sampling, report);
+  warnOfGuesses(addTogether(own, communicator), role, parameters, sampling, report);
   report.setCount("isopoints", isopoints.size());
   IsosurfaceResult result;
   result.isopoints = countPerIsovalue(isopoints, parameters.isosurface.isovalues);
@@ -219,7 +220,8 @@ finishIsosurface(const Dataset& samples,
                  const std::optional<SamplingSummary>& sampling,
                  Communicator& communicator,
                  unsigned threads,
-                 Report&& report)
+                 Report&& report,
+                 SurfaceRole role)
 {
   SurfaceTriangles found;
   found.vertices = std::move(isopoints);
@@ -231,7 +233,8 @@ finishIsosurface(const Dataset& samples,
                 sampling,
                 communicator,
                 threads,
-                std::move(report));
+                std::move(report),
+                role);
 }
 
 pcl::Indices
@@ -356,7 +359,8 @@ IsosurfacePipeline::runOnSamples(const IsosurfacePipelineParameters& parameters)
                                    sampling,
                                    alone,
                                    threads_,
-                                   std::move(report_));
+                                   std::move(report_),
+                                   SurfaceRole::Isosurface);
   warnOfLosses(parameters, result.surface.cloud.width, result.report);
   if (parameters.mesh) {
     setField(result.surface, "piece", found.piece_of);

@@ -46,7 +46,8 @@ extractMembershipSurface(const Dataset& samples,
                                  std::nullopt,
                                  alone,
                                  threads,
-                                 std::move(report));
+                                 std::move(report),
+                                 SurfaceRole::ClusterBorder);
   report = std::move(result.report);
   axes.turnBack(result.surface.cloud);
   return std::move(result.surface);

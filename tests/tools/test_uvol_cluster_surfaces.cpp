@@ -2,6 +2,8 @@
 // uvol_cluster from the outside: clusters are enclosed.
 #include "tools/cluster_tool.h"
 
+#include <array>
+
 namespace {
 
 using namespace uvol_test;
@@ -80,6 +82,30 @@ TEST_F(ClusterTool, MembershipPartsSamplesOfTheClusterFromOthers)
     EXPECT_NEAR(0.5 * apart, std::abs(x + border.origin[0] - apart), 1.0);
   for (const char* field : {"a", "truth", "normal_x"})
     EXPECT_NE(nullptr, pcl_uvol::findField(border.cloud.fields, field)) << field;
+}
+
+TEST_F(ClusterTool, BordersThatRunThroughGapsAreToldOf)
+{
+  for (const char* smoothing : {"", "-smoothing-length h"}) {
+    const std::string told =
+        run(attributes_ + "-cluster 1 -surface membership " + smoothing).err;
+    EXPECT_NE(std::string::npos, told.find("the border of the cluster runs")) << told;
+    EXPECT_EQ(std::string::npos, told.find("lines of samples")) << told;
+    for (const char* option : {"-validate", "-fill-gaps", "-drop-bridged"})
+      EXPECT_EQ(std::string::npos, told.find(option)) << told;
+  }
+}
+
+TEST_F(ClusterTool, BordersAmongSamplesAreNotToldOf)
+{
+  uvol_test::Random random(5);
+  std::string csv = "x,y,z,label\n";
+  for (int i = 0; i < 3000; ++i) {
+    const double x = random.uniform(), y = random.uniform(), z = random.uniform();
+    csv += joined(std::array<double, 3>{x, y, z}) + (x + y < 1.0 ? ",0\n" : ",1\n");
+  }
+  uvol_test::writeFile(in_, csv);
+  EXPECT_EQ("", run("-cluster 1 -surface membership").err);
 }
 
 TEST_F(ClusterTool, MembershipMayBeSmoothOrUncertain)
