@@ -202,7 +202,7 @@ clusterAttributes(const AttributeTable& table,
     clustering = assignMembers(tree, stabilities, chosen, reach);
   }
   countClusters(clustering, min_size, parameters, report);
-  warnOfRounding(table, clustering.labels, report);
+  warnOfRounding(table, clustering.labels, threads, report);
   return clustering;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "multivariate/rounded_attributes.h"
 
+#include "multivariate/cluster_moments.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -29,14 +31,20 @@ struct Column {
   }
 };
 
-/** Values of those clusters that have a single one each. */
-std::vector<float>
-findSingleValues(const Column& column,
-                 const std::vector<std::int32_t>& labels,
-                 std::size_t clusters)
+/** A cluster of which a column has one value. */
+struct Single {
+  float value;
+  std::size_t cluster;
+};
+
+/** Sorted by value. */
+std::vector<Single>
+findSingles(const Column& column,
+            const std::vector<std::int32_t>& labels,
+            std::size_t clusters)
 {
   constexpr float infinity = std::numeric_limits<float>::infinity();
-  std::vector<float> lowest(clusters, infinity), highest(clusters, -infinity), singles;
+  std::vector<float> lowest(clusters, infinity), highest(clusters, -infinity);
   for (std::size_t row = 0; row < labels.size(); ++row) {
     if (labels[row] < 0)
       continue;
@@ -44,17 +52,14 @@ findSingleValues(const Column& column,
     lowest[cluster] = std::min(lowest[cluster], column.at(row));
     highest[cluster] = std::max(highest[cluster], column.at(row));
   }
+  std::vector<Single> singles;
   for (std::size_t cluster = 0; cluster < clusters; ++cluster)
     if (lowest[cluster] == highest[cluster])
-      singles.push_back(lowest[cluster]);
+      singles.push_back({lowest[cluster], cluster});
+  std::sort(singles.begin(), singles.end(), [](const Single& a, const Single& b) {
+    return a.value != b.value ? a.value < b.value : a.cluster < b.cluster;
+  });
   return singles;
-}
-
-void
-sortDistinct(std::vector<float>& values)
-{
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
 std::vector<float>
@@ -63,7 +68,8 @@ findValues(const Column& column)
   std::vector<float> values(column.table.rows());
   for (std::size_t row = 0; row < values.size(); ++row)
     values[row] = column.at(row);
-  sortDistinct(values);
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
   return values;
 }
 
@@ -77,15 +83,82 @@ findStep(const std::vector<float>& values)
   return step;
 }
 
-/** Half or more of the neighbours are a step apart. */
+/** Whether clusters overlap in all columns but one: within two standard deviations. */
 bool
-areStepsApart(const std::vector<float>& values, double step)
+overlap(const Moments& a, const Moments& b, std::size_t but)
+{
+  constexpr double deviations = 2.0;
+  constexpr double rounding = 1e-6; // where all members have the same value
+  const auto deviation = [](const Moments& moments, Eigen::Index column) {
+    return std::sqrt(moments.scatter(column, column) / moments.count);
+  };
+  for (Eigen::Index column = 0; column < a.mean.size(); ++column) {
+    const double reach = deviations * (deviation(a, column) + deviation(b, column)) +
+                         rounding * std::abs(a.mean[column]);
+    if (column != static_cast<Eigen::Index>(but) &&
+        std::abs(a.mean[column] - b.mean[column]) > reach)
+      return false;
+  }
+  return true;
+}
+
+/** Clusters of one value, and the next value that clusters have. */
+struct Neighbors {
+  std::vector<Single>::const_iterator begin, middle, end;
+
+  double
+  gap() const
+  {
+    return static_cast<double>(middle->value) - begin->value;
+  }
+};
+
+std::vector<Neighbors>
+pairNeighbors(const std::vector<Single>& singles)
+{
+  const auto skip = [&](auto single) {
+    return std::find_if(single, singles.end(), [&](const Single& other) {
+      return other.value != single->value;
+    });
+  };
+  std::vector<Neighbors> pairs;
+  auto begin = singles.begin();
+  for (auto middle = skip(begin); middle != singles.end();) {
+    const auto end = skip(middle);
+    pairs.push_back({begin, middle, end});
+    begin = middle;
+    middle = end;
+  }
+  return pairs;
+}
+
+/** Whether some clusters of neighbours differ in this attribute alone. */
+bool
+differInNothingElse(const Neighbors& pair,
+                    const std::vector<Moments>& moments,
+                    std::size_t column)
+{
+  return std::any_of(pair.begin, pair.middle, [&](const Single& a) {
+    return std::any_of(pair.middle, pair.end, [&](const Single& b) {
+      return overlap(moments[a.cluster + 1], moments[b.cluster + 1], column);
+    });
+  });
+}
+
+/** Half or more of the neighbours are a step apart, and in no other attribute. */
+bool
+areStepsApart(const std::vector<Neighbors>& pairs,
+              double step,
+              const std::vector<Moments>& moments,
+              std::size_t column)
 {
   constexpr double tolerance = 0.01; // floats of standardized values are rounded
-  std::size_t apart = 0;
-  for (std::size_t i = 1; i < values.size(); ++i)
-    apart += static_cast<double>(values[i]) - values[i - 1] <= (1.0 + tolerance) * step;
-  return 2 * apart + 1 >= values.size();
+  const auto apart =
+      std::count_if(pairs.begin(), pairs.end(), [&](const Neighbors& pair) {
+        return pair.gap() <= (1.0 + tolerance) * step &&
+               differInNothingElse(pair, moments, column);
+      });
+  return 2 * static_cast<std::size_t>(apart) >= pairs.size();
 }
 
 /** As the field had them, before they were standardized. */
@@ -116,20 +189,23 @@ mayBeClasses(const Column& column,
 std::string
 tellSteps(const Column& column,
           const std::vector<std::int32_t>& labels,
-          std::size_t clusters)
+          std::size_t clusters,
+          unsigned threads)
 {
-  std::vector<float> singles = findSingleValues(column, labels, clusters);
-  const std::size_t single = singles.size();
-  sortDistinct(singles);
-  if (2 * single < clusters || singles.size() < 2)
+  const std::vector<Single> singles = findSingles(column, labels, clusters);
+  if (2 * singles.size() < clusters || singles.front().value == singles.back().value)
     return "";
   const std::vector<float> values = findValues(column);
   const double step = findStep(values);
-  if (!areStepsApart(singles, step) || mayBeClasses(column, values, clusters))
+  if (mayBeClasses(column, values, clusters) ||
+      !areStepsApart(pairNeighbors(singles),
+                     step,
+                     momentsPerCluster(column.table, labels, threads),
+                     column.index))
     return "";
   std::ostringstream text;
   text.precision(3);
-  text << single << " of " << clusters << " clusters have a single value of "
+  text << singles.size() << " of " << clusters << " clusters have a single value of "
        << column.table.names[column.index] << " each, mostly one step of "
        << step * column.table.units[column.index] << " apart";
   return text.str();
@@ -140,13 +216,14 @@ tellSteps(const Column& column,
 void
 warnOfRounding(const AttributeTable& table,
                const std::vector<std::int32_t>& labels,
+               unsigned threads,
                Report& report)
 {
   const std::int32_t last = *std::max_element(labels.begin(), labels.end());
   std::string told;
   for (std::size_t column = 0; column < table.columns() && last > 0; ++column) {
     const std::string text =
-        tellSteps({table, column}, labels, static_cast<std::size_t>(last) + 1);
+        tellSteps({table, column}, labels, static_cast<std::size_t>(last) + 1, threads);
     if (!text.empty())
       told += (told.empty() ? "" : "; ") + text;
   }

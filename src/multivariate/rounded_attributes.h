@@ -10,7 +10,8 @@
 namespace pcl_uvol {
 
 /** \brief Warn of attributes of which at least two clusters and half of all have a
- * single value each, mostly one step apart, the smallest one between its values.
+ * single value each, mostly one step apart, the smallest one between its values, and
+ * apart in no other attribute.
  *
  * Classes are no rounding: fewer than 8 values, or whole numbers that are not many more
  * than the clusters.
@@ -18,6 +19,7 @@ namespace pcl_uvol {
 void
 warnOfRounding(const AttributeTable& table,
                const std::vector<std::int32_t>& labels,
+               unsigned threads,
                Report& report);
 
 } // namespace pcl_uvol

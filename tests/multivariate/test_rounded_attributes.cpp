@@ -212,6 +212,19 @@ TEST(RoundedAttributes, ConstantsOfClustersAreNone)
               })).empty());
 }
 
+/** Settings of an experiment are steps, too, but of clusters that lie apart anyway. */
+TEST(RoundedAttributes, LevelsOfClustersThatLieApartAreNone)
+{
+  const auto report = clusterValues(2, makeValues(6000, 2, [](auto row, auto column) {
+                                      const auto level = static_cast<double>(row % 12);
+                                      return column == 0
+                                                 ? 0.5 * level
+                                                 : 9.0 * level + normalAt(1, row, 0);
+                                    }));
+  EXPECT_EQ(12u, report.getCount("clusters"));
+  EXPECT_TRUE(findWarnings(report).empty());
+}
+
 /** As many as there are clusters: numbers of holes, of dives. */
 TEST(RoundedAttributes, NumbersOfManyGroupsAreNone)
 {
