@@ -8,6 +8,7 @@
 #include <pcl/conversions.h>
 
 #include <memory>
+#include <string>
 
 namespace uvol_test {
 
@@ -21,6 +22,16 @@ runPipeline(const std::shared_ptr<pcl_uvol::Dataset>& samples,
   pipeline.setParameters(parameters);
   pipeline.setNumberOfThreads(threads);
   return pipeline.run();
+}
+
+/** \brief The first warning that has some words; empty without one. */
+inline std::string
+findWarning(const pcl_uvol::IsosurfaceResult& result, const std::string& words)
+{
+  for (const std::string& warning : result.report.warnings)
+    if (warning.find(words) != std::string::npos)
+      return warning;
+  return "";
 }
 
 inline pcl::PointCloud<pcl_uvol::PointIso>

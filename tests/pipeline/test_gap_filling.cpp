@@ -103,22 +103,13 @@ TEST(GapFilling, IsAdvisedAsOtherOptionsThatWereNotGiven)
       << findGuesses(parameters);
 }
 
-std::string
-findWarning(const IsosurfaceResult& result, const std::string& part)
-{
-  for (const std::string& warning : result.report.warnings)
-    if (warning.find(part) != std::string::npos)
-      return warning;
-  return "";
-}
-
 /** Layers are not lines with gaps between, and fits to them know a plane. */
 TEST(GapFilling, SaysWhereItMakesTheSurfaceWorse)
 {
   const std::string worse = "The surface is worse where gaps are filled";
   EXPECT_EQ("",
-            findWarning(uvol_test::runPipeline(makeProfiles(40), makeParameters(true)),
-                        worse));
+            uvol_test::findWarning(
+                uvol_test::runPipeline(makeProfiles(40), makeParameters(true)), worse));
   uvol_test::Random random(4);
   pcl::PointCloud<pcl::PointXYZI> cells;
   for (int i = 0; i < 12 * 12 * 60; ++i) {
@@ -131,8 +122,8 @@ TEST(GapFilling, SaysWhereItMakesTheSurfaceWorse)
   }
   const auto samples = std::make_shared<Dataset>();
   pcl::toPCLPointCloud2(cells, samples->cloud);
-  const std::string warning =
-      findWarning(uvol_test::runPipeline(samples, makeParameters(true)), worse);
+  const std::string warning = uvol_test::findWarning(
+      uvol_test::runPipeline(samples, makeParameters(true)), worse);
   EXPECT_NE(std::string::npos, warning.find("Leave out -fill-gaps.")) << warning;
 }
 

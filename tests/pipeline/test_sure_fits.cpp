@@ -128,15 +128,6 @@ toDataset(const pcl::PointCloud<pcl::PointXYZI>& cloud)
   return samples;
 }
 
-std::string
-findWarning(const IsosurfaceResult& result, const std::string& part)
-{
-  for (const std::string& warning : result.report.warnings)
-    if (warning.find(part) != std::string::npos)
-      return warning;
-  return "";
-}
-
 /** Whether isopoints are the same, in every field but the confidence. */
 void
 expectSame(const pcl::PointCloud<PointIso>& expected,
@@ -167,7 +158,7 @@ TEST(SureFits, LeaveCellsAtAWallAsTheyAre)
     EXPECT_EQ(0u, filled.gaps->predicted);
     EXPECT_EQ("There are gaps between the samples, and none was filled: fits to the "
               "measured samples are surer of the surface across them than kriging is.",
-              findWarning(filled, "gaps"));
+              uvol_test::findWarning(filled, "gaps"));
     const auto points = uvol_test::toIsopoints(filled);
     expectSame(uvol_test::toIsopoints(as_it_is), points);
     auto deviations = uvol_test::deviations(field, stretched.inIndexSpace(points));
@@ -288,7 +279,7 @@ TEST(SureFits, PredictBetweenProfilesAndNotInStretchedCells)
   EXPECT_GT(predicted.least_x, -4.0); // at the border of the cells
   const auto samples = toDataset(cloud);
   const auto filled = uvol_test::runPipeline(samples, makeParameters(0.0, true), 1);
-  EXPECT_NE("", findWarning(filled, "Few gaps were filled: at "));
+  EXPECT_NE("", uvol_test::findWarning(filled, "Few gaps were filled: at "));
   const auto takeCells = [](const IsosurfaceResult& result) {
     pcl::PointCloud<PointIso> points;
     for (const PointIso& point : uvol_test::toIsopoints(result))
