@@ -31,7 +31,7 @@ has(IsoSupport support, const PointIso& point)
   return point.support == static_cast<std::uint8_t>(support);
 }
 
-/** Values that many ends of the edges of an isovalue have. */
+/** Values that many of the samples beside an isovalue have. */
 class CommonValues {
 public:
   CommonValues(const CloudView& samples,
@@ -41,11 +41,15 @@ public:
                std::size_t last)
       : samples_(samples)
       , field_(field)
-      , least_(common_share * 2.0 * static_cast<double>(last - first))
   {
+    std::vector<std::uint32_t> beside;
     for (std::size_t i = first; i < last; ++i)
-      for (const std::uint32_t end : {edges[i].first, edges[i].second})
-        ++counts_[read(end)];
+      beside.insert(beside.end(), {edges[i].first, edges[i].second});
+    std::sort(beside.begin(), beside.end());
+    beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
+    for (const std::uint32_t sample : beside)
+      ++counts_[read(sample)];
+    least_ = common_share * static_cast<double>(beside.size());
   }
 
   /** Whether both ends of an edge have one, and neither lies far beyond the isovalue,
@@ -61,9 +65,9 @@ public:
   }
 
 private:
-  /** Share of the ends that have a common value: of two materials it is a half, of
-   * numbers with a few digits next to nothing. */
-  static constexpr double common_share = 0.05;
+  /** Share of the samples that have a common value: of two materials it is a half.
+   * Outliers are fewer than the samples around them: of one in thirty it is 0.07. */
+  static constexpr double common_share = 0.15;
 
   /** Of the edge, from either end to the root. */
   static constexpr float least_part = 0.01f;
@@ -76,7 +80,7 @@ private:
 
   const CloudView& samples_;
   ScalarField field_;
-  double least_;
+  double least_ = 0.0;
   std::map<double, std::size_t> counts_;
 };
 
