@@ -115,31 +115,46 @@ TEST(KnownIsopoints, DoNotSlipPastSamples)
   }
 }
 
-/** Outliers among other values, and codes of missing values among two of them. */
-TEST(KnownIsopoints, DoNotSurroundOutliers)
+/** How far outliers lie beyond other values, and how many there are. */
+struct Outliers {
+  bool beside_steps; ///< among two values, else among those of a distance
+  float value;
+  std::size_t one_in;
+};
+
+class KnownBesideOutliers : public ::testing::TestWithParam<Outliers> {};
+
+TEST_P(KnownBesideOutliers, DoNotSurroundThem)
 {
-  for (const bool has_steps : {false, true})
-    for (const float spike : {-9999.0f, 1000.0f, 9.0f}) {
-      SCOPED_TRACE(std::to_string(has_steps) + ' ' + std::to_string(spike));
-      const auto samples = sampleBall();
-      pcl::PointCloud<pcl::PointXYZI> cloud;
-      pcl::fromPCLPointCloud2(samples->cloud, cloud);
-      for (std::size_t i = 0; i < cloud.size(); ++i)
-        if (i % 30 == 0)
-          cloud[i].intensity = spike;
-        else if (!has_steps)
-          cloud[i].intensity = 3.1f - cloud[i].getVector3fMap().norm();
-      const auto count_far = [&](bool only_known) {
-        const auto isopoints =
-            uvol_test::toIsopoints(extract(toDataset(cloud), 2.5, only_known));
-        EXPECT_GT(isopoints.size(), has_steps ? 500u : 100u);
-        return std::count_if(isopoints.begin(), isopoints.end(), [](const auto& point) {
-          return std::abs(point.getVector3fMap().norm() - 0.6f) > 0.2f;
-        });
-      };
-      EXPECT_GT(count_far(false), 70);
-      EXPECT_LE(count_far(true), 20);
-    }
+  const auto [beside_steps, value, one_in] = GetParam();
+  const auto samples = sampleBall();
+  pcl::PointCloud<pcl::PointXYZI> cloud;
+  pcl::fromPCLPointCloud2(samples->cloud, cloud);
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+    if (i % one_in == 0)
+      cloud[i].intensity = value;
+    else if (!beside_steps)
+      cloud[i].intensity = 3.1f - cloud[i].getVector3fMap().norm();
+  const auto count_far = [&](bool only_known) {
+    const auto isopoints =
+        uvol_test::toIsopoints(extract(toDataset(cloud), 2.5, only_known));
+    EXPECT_GT(isopoints.size(), 100u);
+    return std::count_if(isopoints.begin(), isopoints.end(), [](const auto& point) {
+      return std::abs(point.getVector3fMap().norm() - 0.6f) > 0.2f;
+    });
+  };
+  EXPECT_GT(count_far(false), 70);
+  EXPECT_LE(count_far(true), 20);
 }
+
+INSTANTIATE_TEST_SUITE_P(,
+                         KnownBesideOutliers,
+                         ::testing::Values(Outliers{false, -9999.0f, 30},
+                                           Outliers{false, 1000.0f, 30},
+                                           Outliers{false, 9.0f, 30},
+                                           Outliers{true, -9999.0f, 30},
+                                           Outliers{true, -9999.0f, 4},
+                                           Outliers{true, 1000.0f, 30},
+                                           Outliers{true, 9.0f, 30}));
 
 } // namespace
