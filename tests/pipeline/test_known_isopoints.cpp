@@ -115,6 +115,44 @@ TEST(KnownIsopoints, DoNotSlipPastSamples)
   }
 }
 
+/** Profiles at random places, of a value that jumps at a depth of its own. */
+std::shared_ptr<Dataset>
+sampleProfiles()
+{
+  uvol_test::Random random(7);
+  pcl::PointCloud<pcl::PointXYZI> cloud;
+  for (int profile = 0; profile < 40; ++profile) {
+    pcl::PointXYZI point;
+    point.x = static_cast<float>(20.0 * random.uniform());
+    point.y = static_cast<float>(20.0 * random.uniform());
+    const double depth = 2.0 + random.uniform();
+    for (int i = 0; i < 50; ++i) {
+      point.z = 0.1f * static_cast<float>(i);
+      point.intensity = point.z < depth ? 1.0f : 3.0f;
+      cloud.push_back(point);
+    }
+  }
+  return toDataset(cloud);
+}
+
+/** Neighbours of a profile know where the surface crosses it, the space between
+ * profiles does not. */
+TEST(KnownIsopoints, AreCrossingsWithLines)
+{
+  const auto samples = sampleProfiles();
+  const auto count = [&](bool only_known, bool on_line) {
+    std::size_t found = 0;
+    for (const PointIso& point :
+         uvol_test::toIsopoints(extract(samples, 1.5, only_known)))
+      found += (point.edge_length < 0.11f) == on_line;
+    return found;
+  };
+  EXPECT_EQ(40u, count(false, true));
+  EXPECT_EQ(40u, count(true, true));
+  EXPECT_GT(count(false, false), 100u);
+  EXPECT_LT(count(true, false), count(false, false) / 10);
+}
+
 /** How far outliers lie beyond other values, and how many there are. */
 struct Outliers {
   bool beside_steps; ///< among two values, else among those of a distance
