@@ -5,12 +5,12 @@
 #include "common/number_range.h"
 #include "common/parallel.h"
 #include "common/printable.h"
-#include "common/random.h"
 #include "common/records.h"
 #include "common/scalar_field.h"
 #include "interpolation/field_model.h"
 #include "neighbors/nearest_finder.h"
 #include "neighbors/sampling.h"
+#include "pipeline/gap_lattice.h"
 #include "pipeline/gap_widths.h"
 #include "pipeline/kriged_slopes.h"
 #include "pipeline/lattice_band.h"
@@ -24,7 +24,6 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <tuple>
 
 namespace pcl_uvol::detail {
 
@@ -36,10 +35,6 @@ constexpr std::size_t block_places = 256;
 
 /** Samples that the field between others is kriged from. */
 constexpr std::size_t kriged_samples = 16;
-
-/** Share of the spacing of the lattice: its nodes are moved so far along each axis, at
- * most, since edges slip between samples on a lattice. */
-constexpr double jitter = 0.25;
 
 /** Share of that spacing: where measured samples are farther away, they do not tell
  * more than the lattice does, whatever lies around. */
@@ -53,105 +48,12 @@ constexpr double farthest_gaps = 4.0;
  * are no gaps. */
 constexpr double least_gaps = 0.1;
 
-/** Beyond it along an axis, which takes a stray sample, no surface is followed. */
-constexpr double farthest_node = (1 << 20) - 4;
-
-using Place = std::array<double, 3>;
-
 Position
 toFloat(const Place& place)
 {
   return {{static_cast<float>(place[0]),
            static_cast<float>(place[1]),
            static_cast<float>(place[2])}};
-}
-
-/** Where nodes lie; lengths are those of the stretched space. */
-class Lattice {
-public:
-  Lattice(double spacing, const Eigen::Array3f& scale, const SampleSet& samples)
-      : spacing_(spacing)
-      , scale_(scale)
-  {
-    const KdTree& tree = samples.getTree();
-    const KdBox box = tree.getBox(tree.getRoot());
-    for (int axis = 0; axis < 3; ++axis)
-      origin_[static_cast<std::size_t>(axis)] =
-          samples.getUnit().toInput(static_cast<double>(box.low[axis]));
-  }
-
-  /** \brief In the original space, rounded to float as positions are. */
-  Place
-  placeOf(const LatticeNode& node) const
-  {
-    std::uint64_t hash = 0;
-    for (const std::int32_t coordinate : node)
-      hash = mixBits(hash ^ static_cast<std::uint64_t>(coordinate));
-    Place place;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double shift = jitter * (2.0 * uniformAt(hash, axis, 0) - 1.0);
-      const double stretched =
-          origin_[axis] + spacing_ * (static_cast<double>(node[axis]) + shift);
-      place[axis] = static_cast<double>(static_cast<float>(stretched / factor(axis)));
-    }
-    return place;
-  }
-
-  /** \brief The cell that a place is in, by its lowest node. */
-  LatticeNode
-  cellOf(const Place& place) const
-  {
-    LatticeNode node;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double steps = (place[axis] * factor(axis) - origin_[axis]) / spacing_;
-      node[axis] =
-          static_cast<std::int32_t>(std::clamp(std::floor(steps), 0.0, farthest_node));
-    }
-    return node;
-  }
-
-private:
-  double
-  factor(std::size_t axis) const
-  {
-    return static_cast<double>(scale_[static_cast<Eigen::Index>(axis)]);
-  }
-
-  double spacing_;
-  Eigen::Array3f scale_;
-  Place origin_{};
-};
-
-/** What is averaged in one cell of a lattice. */
-struct Composite {
-  LatticeNode cell;
-  Place place;
-  double value;
-};
-
-/** The mean places and values of samples in the same cells, in the order of these,
- * whatever that of the samples. */
-std::vector<Composite>
-averageInCells(std::vector<Composite> samples)
-{
-  std::sort(samples.begin(), samples.end(), [](const auto& a, const auto& b) {
-    return std::tie(a.cell, a.place, a.value) < std::tie(b.cell, b.place, b.value);
-  });
-  std::vector<Composite> means;
-  for (auto begin = samples.begin(); begin != samples.end();) {
-    const auto end = std::find_if(begin, samples.end(), [&](const Composite& sample) {
-      return sample.cell != begin->cell;
-    });
-    const auto count = static_cast<double>(end - begin);
-    Composite mean{begin->cell, {}, 0.0};
-    for (; begin != end; ++begin) {
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        mean.place[axis] += begin->place[axis] / count;
-      mean.value += begin->value / count;
-    }
-    means.push_back(mean);
-  }
-  return means;
 }
 
 /** Pairs of nodes that follow one another along an axis, by their indices.
