@@ -16,7 +16,6 @@
 namespace {
 
 using pcl_uvol::Dataset;
-using pcl_uvol::Interpolation;
 using pcl_uvol::IsosurfacePipelineParameters;
 using pcl_uvol::IsosurfaceResult;
 using uvol_test::makeParameters;
@@ -47,7 +46,7 @@ measuredTwice(const Dataset& once, const std::vector<std::array<float, 2>>& erro
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < 2 * errors.size(); ++i)
     order.push_back(i % errors.size());
-  const auto twice = reordered(once, order);
+  auto twice = reordered(once, order);
   std::vector<float> values = readColumn(*twice, "intensity");
   for (std::size_t i = 0; i < values.size(); ++i)
     values[i] += errors[order[i]][i / errors.size()];
