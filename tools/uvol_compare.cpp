@@ -8,8 +8,6 @@
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset.h>
 
-#include <sstream>
-
 namespace {
 
 using pcl_uvol::Dataset;
@@ -63,7 +61,7 @@ void
 describe(const SurfaceDistances& distances, const std::string& name, Facts& facts)
 {
   const Eigen::Vector3d& at = distances.farthest;
-  std::ostringstream text;
+  uvol_tools::FactText text;
   text << "mean " << distances.mean << ", root mean square "
        << distances.root_mean_square << ", 99.9 % within " << distances.permille
        << ", largest " << distances.largest << " at " << at[0] << "," << at[1] << ","
@@ -79,7 +77,7 @@ describe(const SurfaceDistances& distances, const std::string& name, Facts& fact
   for (const FieldDifference& field : distances.fields) {
     if (fields.size() == most_fields_told)
       break;
-    std::ostringstream difference;
+    uvol_tools::FactText difference;
     difference << "differs by " << field.mean << " in the mean, " << field.largest
                << " at most";
     facts.push_back(Fact(field.name + ", " + name, difference.str()).withoutJson());

@@ -18,7 +18,6 @@
 #include <iostream>
 #include <limits>
 #include <set>
-#include <sstream>
 
 namespace {
 
@@ -40,7 +39,7 @@ template <typename Numbers>
 std::string
 joined(const Numbers& numbers, const char* separator)
 {
-  std::ostringstream text;
+  uvol_tools::FactText text;
   text.precision(10);
   bool first = true;
   for (const auto& number : numbers) {
@@ -57,7 +56,7 @@ findRange(const ValueStatistics& statistics)
     return "no finite value";
   const std::vector<std::string> numbers =
       pcl_uvol::describeNumbers({statistics.min, statistics.max, statistics.mean});
-  std::ostringstream text;
+  uvol_tools::FactText text;
   text << numbers[0] << " to " << numbers[1] << ", mean " << numbers[2];
   if (statistics.missing > 0)
     text << ", " << statistics.missing << " missing";

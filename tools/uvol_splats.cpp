@@ -18,7 +18,6 @@
 #include <pcl/conversions.h>
 
 #include <filesystem>
-#include <sstream>
 
 namespace {
 
@@ -50,7 +49,7 @@ generateSplats(const pcl::PCLPointCloud2& cloud,
 std::string
 describePlace(const std::array<double, 3>& place)
 {
-  std::ostringstream text;
+  uvol_tools::FactText text;
   text.precision(12);
   text << place[0] << ", " << place[1] << ", " << place[2];
   return text.str();

@@ -184,7 +184,7 @@ run(int argc, char** argv)
                                             paper.height));
   }
   const auto& shape = grid->getShape();
-  std::ostringstream grid_text;
+  uvol_tools::FactText grid_text;
   grid_text << shape.cells[0] << " x " << shape.cells[1] << " x " << shape.cells[2]
             << " cells of " << shape.spacing[0] << " x " << shape.spacing[1] << " x "
             << shape.spacing[2];

@@ -84,6 +84,10 @@ describeNumbers(const std::vector<double>& numbers)
   constexpr int fewest = 6, digits_of_gap = 3;
   std::vector<std::string> texts;
   for (const double number : numbers) {
+    if (!std::isfinite(number)) {
+      texts.emplace_back("unknown");
+      continue;
+    }
     double gap = std::numeric_limits<double>::infinity();
     for (const double other : numbers)
       if (other != number)

@@ -52,7 +52,7 @@ PCL_UVOL_EXPORTS double
 roundedMiddle(const NumberRange& range, double scale);
 
 /** \brief Numbers as texts of 6 digits, or of as many more as show what parts each from
- * the nearest other one. */
+ * the nearest other one; those that are not finite are "unknown". */
 PCL_UVOL_EXPORTS std::vector<std::string>
 describeNumbers(const std::vector<double>& numbers);
 

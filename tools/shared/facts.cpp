@@ -3,14 +3,28 @@
 
 #include <algorithm>
 #include <cmath>
+#include <locale>
 #include <nlohmann/json.hpp>
-#include <sstream>
+#include <string_view>
 
 namespace uvol_tools {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+/** Writes numbers as the classic locale does, but for those that are not finite. */
+class KnownNumbers : public std::num_put<char> {
+protected:
+  iter_type
+  do_put(iter_type out, std::ios_base& stream, char fill, double number) const override
+  {
+    if (std::isfinite(number))
+      return std::num_put<char>::do_put(out, stream, fill, number);
+    constexpr std::string_view unknown = "unknown";
+    return std::copy(unknown.begin(), unknown.end(), out);
+  }
+};
 
 std::string
 makeKey(std::string name)
@@ -72,13 +86,18 @@ write(const Fact::Members& members)
 std::string
 join(const Fact::Numbers& numbers)
 {
-  std::ostringstream text;
+  FactText text;
   for (const double number : numbers)
     text << (text.tellp() > 0 ? "," : "") << number;
   return text.str();
 }
 
 } // namespace
+
+FactText::FactText()
+{
+  imbue(std::locale(std::locale::classic(), new KnownNumbers)); // which it owns
+}
 
 Fact::Fact(std::string name, std::string text)
     : name_(std::move(name))

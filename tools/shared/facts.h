@@ -2,11 +2,19 @@
 // What a tool tells besides counts and times: a line for people, a value for programs.
 #pragma once
 
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace uvol_tools {
+
+/** \brief The words of a fact. All numbers in them go through this stream: one that is
+ * not finite is written as "unknown". */
+class FactText : public std::ostringstream {
+public:
+  FactText();
+};
 
 /** \brief A name with a text, and the same as a value of JSON: a text, a number, a list
  * of numbers, or several of them by name. What is no finite number is null in JSON. */

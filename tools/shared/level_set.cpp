@@ -3,8 +3,6 @@
 
 #include "common/numbers.h"
 
-#include <sstream>
-
 namespace uvol_tools {
 
 Facts
@@ -13,7 +11,7 @@ describe(const pcl_uvol::LevelSetSummary& summary,
          const std::string& of_isovalue)
 {
   const auto text = [](auto... parts) {
-    std::ostringstream stream;
+    FactText stream;
     stream.precision(3);
     (stream << ... << parts);
     return stream.str();

@@ -2,7 +2,6 @@
 #include "shared/sampling_fact.h"
 
 #include <cmath>
-#include <sstream>
 
 namespace uvol_tools {
 
@@ -11,7 +10,7 @@ describeSampling(const pcl_uvol::SamplingSummary& sampling)
 {
   constexpr const char* names[] = {"isolated", "lines", "sheets", "all around"};
   const auto most = static_cast<std::size_t>(sampling.most);
-  std::ostringstream text;
+  FactText text;
   text.precision(3);
   text << names[most] << ", spacing " << sampling.along;
   if (sampling.most != pcl_uvol::LocalDimension::Isolated &&

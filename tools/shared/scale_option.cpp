@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <sstream>
 
 namespace uvol_tools {
 
@@ -127,7 +126,7 @@ describe(const Stretch& stretch)
 Fact
 describe(const pcl_uvol::ScaleChoice& choice)
 {
-  std::ostringstream text;
+  FactText text;
   text.precision(2);
   if ((choice.scale == 1.0f).all())
     text << "1: no other one tells clearly more of " << choice.tested

@@ -9,7 +9,6 @@
 #include "shared/scale_option.h"
 
 #include <optional>
-#include <sstream>
 #include <string>
 
 namespace uvol_tools {
@@ -22,7 +21,7 @@ describeErrors(const std::optional<pcl_uvol::ErrorSummary>& errors)
 {
   if (!errors)
     return {"estimated error", "not estimated", Fact::Members()};
-  std::ostringstream text;
+  FactText text;
   text.precision(3);
   text << "median " << errors->median << ", 95 % within " << errors->percentile_95
        << ", largest " << errors->largest;
@@ -36,7 +35,7 @@ describeErrors(const std::optional<pcl_uvol::ErrorSummary>& errors)
 std::string
 describeShares(const char* what, const pcl_uvol::ClassShares& shares, std::size_t count)
 {
-  std::ostringstream text;
+  FactText text;
   text.precision(3);
   text << what << " right for " << 100.0 * shares.predicted << " % of " << count
        << " (nearest sample " << 100.0 * shares.nearest << " %, always the same "
@@ -49,14 +48,14 @@ Facts
 describeValidation(const pcl_uvol::ValidationScore& score,
                    const std::string& of_isovalue)
 {
-  std::ostringstream beyond;
+  FactText beyond;
   beyond.precision(3);
   beyond << 100.0 * score.side_beyond_error << " % of " << score.beyond_error
          << " on the right side";
   const auto number = [](auto value) {
     return Fact::Numbers{static_cast<double>(value)};
   };
-  std::ostringstream near;
+  FactText near;
   near.precision(2);
   near << ", "
        << 100.0 * static_cast<double>(score.covered) / static_cast<double>(score.tested)
@@ -92,7 +91,7 @@ describeValidation(const pcl_uvol::ValidationScore& score,
 Facts
 describeGaps(const pcl_uvol::GapFilling& gaps)
 {
-  std::ostringstream text;
+  FactText text;
   text.precision(3);
   if (gaps.predicted == 0)
     text << "none filled: " << gaps.unfilled;
@@ -115,7 +114,7 @@ Facts
 describeMesh(const pcl_uvol::IsosurfaceResult& result, bool is_measured)
 {
   constexpr std::size_t most_shown = 6;
-  std::ostringstream text;
+  FactText text;
   Fact::Numbers isovalues, triangles, genus, rims;
   for (const pcl_uvol::SurfacePiece& piece : result.pieces) {
     if (isovalues.size() < most_shown) {
@@ -131,7 +130,7 @@ describeMesh(const pcl_uvol::IsosurfaceResult& result, bool is_measured)
   }
   if (result.pieces.size() > most_shown)
     text << "; and " << result.pieces.size() - most_shown << " more";
-  std::ostringstream angle;
+  FactText angle;
   angle.precision(3);
   angle << result.smallest_angle << " degrees";
   const Fact pieces("pieces",

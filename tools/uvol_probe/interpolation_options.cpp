@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 namespace uvol_tools {
 
@@ -244,7 +243,7 @@ InterpolationOptions::validate(const pcl_uvol::Dataset& samples,
                                     report);
   Facts facts, of_fields;
   for (const pcl_uvol::FieldScore& score : scores) {
-    std::ostringstream text;
+    FactText text;
     text.precision(4);
     text << "RMS " << score.rms << ", bias " << score.bias;
     if (!std::isnan(score.share))
@@ -269,7 +268,7 @@ InterpolationOptions::validate(const pcl_uvol::Dataset& samples,
 Facts
 describe(const pcl_uvol::ModelChoice& choice)
 {
-  std::ostringstream text;
+  FactText text;
   text.precision(3);
   Facts errors;
   for (const pcl_uvol::ModelScore& score : choice.scores) {

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <sstream>
 
 namespace uvol_tools {
 
@@ -277,7 +276,7 @@ Runner::probeLattice()
 {
   const Slice& slice = *probe_.lattice;
   const QueryLattice& lattice = slice.lattice;
-  std::ostringstream text;
+  FactText text;
   for (std::size_t axis = 0; axis < 3; ++axis)
     text << (axis > 0 ? " x " : "") << lattice.counts[axis];
   text << " points, " << lattice.spacing(slice.horizontal) << " apart";

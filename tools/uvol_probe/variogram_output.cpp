@@ -81,7 +81,7 @@ makeProfile(const FittedVariogram& variogram,
 std::string
 describe(const Variogram& model)
 {
-  std::ostringstream text;
+  FactText text;
   text.precision(4);
   text << toWord(model.kind) << ", nugget " << model.nugget << ", sill " << model.sill
        << ", range " << model.range;
