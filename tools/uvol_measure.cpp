@@ -11,6 +11,7 @@
 #include "shared/measure_table.h"
 #include "shared/memory_guard.h"
 #include "shared/options.h"
+#include "shared/periodic_option.h"
 #include "shared/point_files.h"
 #include "shared/progress_bar.h"
 #include "shared/series.h"
@@ -21,6 +22,7 @@
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -39,7 +41,8 @@ struct Arguments : uvol_tools::IsosurfaceOptions {
   std::string input, output, samples, picture, plot = "volume";
   std::uint64_t drop_pieces = 0;
   uvol_tools::SizeOption size;
-  bool with_pieces = false, is_flat = false, is_checked = false;
+  uvol_tools::PeriodicOption periodic;
+  bool drop_unsure = false, with_pieces = false, is_flat = false, is_checked = false;
 };
 
 void
@@ -56,6 +59,7 @@ declare(Options& options, Arguments& arguments)
                   0,
                   std::numeric_limits<std::int32_t>::max(),
                   "of samples: leave out pieces of fewer triangles");
+  arguments.periodic.declare(options);
   options.group("Input");
   options.input("samples",
                 "file",
@@ -67,6 +71,10 @@ declare(Options& options, Arguments& arguments)
   options.flag("flat",
                arguments.is_flat,
                "measure triangles as they are, not bent as their normals tell");
+  options.flag(
+      "drop-unsure",
+      arguments.drop_unsure,
+      "leave out pieces whose error is as large as they are, as around debris");
   options.flag("check",
                arguments.is_checked,
                "look for triangles that go through one another as well");
@@ -85,6 +93,13 @@ declare(Options& options, Arguments& arguments)
   uvol_tools::declareSeries(options);
 }
 
+/** Whether an option is for the samples that -samples gives. */
+bool
+isOfGivenSamples(const Options& options, const std::string& name)
+{
+  return options.given("samples") && (name == "field" || name == "outside");
+}
+
 void
 check(const Options& options, Arguments& arguments)
 {
@@ -100,7 +115,7 @@ check(const Options& options, Arguments& arguments)
                                  "smooth",
                                  "drop-pieces",
                                  "png"})
-    if (options.given(name) && !has_isovalues)
+    if (options.given(name) && !has_isovalues && !isOfGivenSamples(options, name))
       throw UsageError(std::string("-") + name +
                        " is for isosurfaces of samples, which need -iso.");
   if (has_isovalues) {
@@ -110,6 +125,7 @@ check(const Options& options, Arguments& arguments)
     arguments.parameters.mesh.emplace();
     arguments.parameters.mesh->drop_pieces = arguments.drop_pieces;
   }
+  arguments.periodic.check();
   arguments.size.checkChart(options, "png", !arguments.picture.empty());
   if (options.given("plot") && arguments.picture.empty())
     throw UsageError("-plot needs -png.");
@@ -132,6 +148,8 @@ struct Surface {
   std::shared_ptr<Dataset> vertices = std::make_shared<Dataset>();
   std::vector<pcl_uvol::Triangle> triangles;
   std::shared_ptr<const Dataset> samples;
+  std::string field; ///< that it is an isosurface of; empty: not known
+  std::array<double, 3> periodic{};
 };
 
 Surface
@@ -157,6 +175,9 @@ loadSurface(const Options& options, const Arguments& arguments, Report& report)
   if (!arguments.samples.empty())
     surface.samples =
         std::make_shared<Dataset>(uvol_tools::loadPoints(arguments.samples, report));
+  surface.field = arguments.parameters.isosurface.field;
+  surface.periodic = arguments.periodic.findSides(
+      surface.samples ? *surface.samples : *surface.vertices, report);
   return surface;
 }
 
@@ -174,6 +195,11 @@ extractSurface(const Options& options,
                                                        arguments.getWhere(),
                                                        options.threads()));
   arguments.resolveSpacing(*samples);
+  const std::array<double, 3> sides = arguments.periodic.findSides(*samples, report);
+  if (pcl_uvol::isPeriodic(sides)) {
+    arguments.parameters.periodic = {sides[0], sides[1], sides[2]};
+    arguments.parameters.periodic_mesh = pcl_uvol::PeriodicMesh::Weld;
+  }
   uvol_tools::addField(
       *samples, arguments.parameters.isosurface.field, options, report);
   pcl_uvol::refuseNames(*samples, arguments.parameters.isosurface.field);
@@ -195,7 +221,9 @@ extractSurface(const Options& options,
         " has all its values on one side of the isovalues.");
   return {std::make_shared<Dataset>(std::move(result.surface)),
           std::move(result.triangles),
-          samples};
+          samples,
+          result.field,
+          sides};
 }
 
 /** Whether isovalues are nearer to even ratios than to even steps. */
@@ -362,6 +390,10 @@ run(int argc, char** argv, const uvol_tools::SeriesStep* step, MeasureSeries& se
   pcl_uvol::SurfaceMeasuresParameters parameters;
   parameters.curved = !arguments.is_flat;
   parameters.find_intersections = arguments.is_checked;
+  parameters.drop_unsure = arguments.drop_unsure;
+  parameters.field = surface.field;
+  parameters.outside = arguments.parameters.isosurface.outside;
+  parameters.periodic = {surface.periodic[0], surface.periodic[1], surface.periodic[2]};
   const SurfaceFigures figures =
       uvol_tools::measureSurface(surface.vertices,
                                  surface.triangles,

@@ -152,6 +152,8 @@ class PieceFigures:
     rims: int
     genus: int | None
     samples: int
+    samples_beyond: int | None
+    sums_beyond: dict[str, float]
     area: Figure
     cap_area: float
     volume: Figure

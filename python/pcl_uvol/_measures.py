@@ -26,6 +26,11 @@ class Figure(NamedTuple):
     def __float__(self):
         return float(self.value)
 
+    def __str__(self):
+        value, error = (f"{number:{form}}" if np.isfinite(number) else "unknown"
+                        for number, form in ((self.value, ".6g"), (self.error, ".2g")))
+        return f"{value} +- {error}" if np.isfinite(self.value) else value
+
 
 class FieldFigures(NamedTuple):
     """A field on a surface, or in what it encloses.
@@ -70,6 +75,11 @@ class PieceFigures:
         By field.
     samples : int
         Samples inside.
+    samples_beyond : int or None
+        Samples at the isovalue or on its inner side, wherever they are. Of an isovalue
+        whose samples are known.
+    sums_beyond : dict of str to float
+        The sums of the fields of these samples: of masses, their mass.
 
     Examples
     --------
@@ -82,7 +92,7 @@ class PieceFigures:
 
     def __init__(self, figures):
         for name in ("isovalue", "vertices", "triangles", "rims", "genus", "samples", "cap_area",
-                     "capped_volume"):
+                     "capped_volume", "samples_beyond", "sums_beyond"):
             setattr(self, name, figures[name])
         for name in ("centroid", "axes", "half_axes", "low", "high"):
             setattr(self, name, np.asarray(figures[name]))
@@ -92,8 +102,7 @@ class PieceFigures:
         self.inside = _fields(figures["inside"])
 
     def __repr__(self):
-        return (f"{type(self).__name__}: area {self.area.value:.6g} +- {self.area.error:.2g}, "
-                f"volume {self.volume.value:.6g} +- {self.volume.error:.2g}, genus {self.genus}")
+        return f"{type(self).__name__}: area {self.area}, volume {self.volume}, genus {self.genus}"
 
 
 class Measures(PieceFigures):
@@ -184,6 +193,10 @@ def measure(surface, *, samples=None, curved=True, find_intersections=False, thr
         samples = as_samples(samples, None)
     parameters = {"curved": _parameters.flag(curved, "curved"),
                   "find_intersections": _parameters.flag(find_intersections, "find_intersections")}
+    made_with = getattr(surface, "parameters", {})
+    if "isosurface" in made_with:  # so that the samples beyond the isovalue are known, and the periodic box
+        parameters.update(field=surface.report["field"], outside=made_with["isosurface"]["outside"],
+                          periodic=made_with["periodic"])
     with listening(progress) as listener:
         figures = _core.measure(vertices._dataset, triangles, None if samples is None else samples._dataset,
                                 _parameters.to_json(parameters), _parameters.count(threads, "threads"), listener)

@@ -81,8 +81,12 @@ SurfaceIntegrals::add(const SurfaceIntegrals& other, double part)
   volume += part * other.volume;
   moment += part * other.moment;
   products += part * other.products;
-  area_error += part * other.area_error;
-  volume_error += part * other.volume_error;
+  below += part * other.below;
+  flux += part * other.flux;
+  is_solid = is_solid && other.is_solid;
+  // What a negative part takes away is no better known than what it is taken from.
+  area_error += std::abs(part) * other.area_error;
+  volume_error += std::abs(part) * other.volume_error;
 }
 
 SurfaceIntegrals
@@ -146,6 +150,8 @@ CurvedTriangle::integrate(const Nodes& nodes, std::array<double, 3>& shares)
     sum.volume += cone / 3.0;
     sum.moment += cone / 4.0 * place;
     sum.products += cone / 5.0 * product;
+    sum.below += place[2] * normal[2];
+    sum.flux += normal[2];
     for (std::size_t i = 0; i < 3; ++i)
       shares[i] += area * lambda[i];
   }

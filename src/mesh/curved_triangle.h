@@ -45,6 +45,12 @@ struct PCL_UVOL_EXPORTS SurfaceIntegrals {
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
   Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
   /** @} */
+  /** The integrals of z times the z of the normal, and of this z alone: with them a
+   * surface that a box cuts can be closed, see BoxClosure. shifted() leaves them. @{ */
+  double below = 0.0, flux = 0.0;
+  /** @} */
+  /** Whether moment and products are those of the enclosed space. */
+  bool is_solid = true;
   /** What bending leaves out, about. @{ */
   double area_error = 0.0, volume_error = 0.0;
   /** @} */
@@ -100,6 +106,13 @@ public:
    * \param[out] shares as above */
   SurfaceIntegrals
   integrateFlat(std::array<double, 3>& shares) const;
+
+  /** \brief From the middle of the edge opposite of a corner to the bent edge. */
+  Eigen::Vector3d
+  getBulge(std::size_t corner) const
+  {
+    return bent_[3 + corner] - flat_[3 + corner];
+  }
 
 private:
   using Nodes = std::array<Eigen::Vector3d, 6>; // corners, then the middle of the edge

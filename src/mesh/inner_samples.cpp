@@ -90,8 +90,10 @@ struct CellSums {
 /** Integrals over what the pieces enclose, by the cells of the samples. */
 class CellIntegrals {
 public:
+  template <typename PlaceOf>
   CellIntegrals(const MeshColumns& columns,
                 const CloudView& cloud,
+                const PlaceOf& place_of,
                 unsigned threads,
                 StepTimer& step,
                 Report& report)
@@ -108,8 +110,7 @@ public:
                                 SplitRule::LongestSide);
     volumes_ = computeCellVolumes(*samples_, threads);
     inner_ = findInner(columns, samples_->size(), threads, step, [&](std::size_t i) {
-      const float* const place = cloud.xyz(samples_->getInputIndex(i));
-      return Eigen::Vector3d(place[0], place[1], place[2]);
+      return place_of(samples_->getInputIndex(i));
     });
   }
 
@@ -135,6 +136,21 @@ public:
         of_piece.sq_deviation += volume * volume * step * step;
       if (isBesideSurface(point) && std::isfinite(at_surface[piece]))
         of_piece.at_surface += volume * std::abs(value - at_surface[piece]);
+    }
+    return sums;
+  }
+
+  /** The sums of a field over all cells. */
+  CellSums
+  sumAll(const ScalarField& field) const
+  {
+    CellSums sums;
+    for (std::size_t i = 0; i < volumes_.size(); ++i) {
+      const double value = valueOf(field, i);
+      if (!std::isfinite(value))
+        continue;
+      sums.volume += volumes_[i];
+      sums.integral += volumes_[i] * value;
     }
     return sums;
   }
@@ -197,9 +213,36 @@ estimateIntegral(const CellSums& sums, const PieceMeasures& piece, double at_sur
               std::abs(there) * piece.volume.error};
 }
 
+/** The samples and their sums, and integrals over the box. */
+PieceMeasures
+describeBox(const CloudView& samples,
+            const std::vector<std::string>& names,
+            const CellIntegrals& cells,
+            double volume)
+{
+  PieceMeasures all;
+  all.volume = {volume, 0.0};
+  for (std::size_t i = 0; i < samples.count; ++i) {
+    const float* const place = samples.xyz(i);
+    all.samples +=
+        std::isfinite(place[0]) && std::isfinite(place[1]) && std::isfinite(place[2]);
+  }
+  for (const std::string& name : names) {
+    const ScalarField field(samples.fields, name);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < samples.count; ++i)
+      if (const double value = field.read(samples.point(i)); std::isfinite(value))
+        sum += value;
+    const Measure integral = estimateIntegral(
+        cells.sumAll(field), all, std::numeric_limits<double>::quiet_NaN());
+    all.inside.push_back({name, integral, integral.value / volume, sum});
+  }
+  return all;
+}
+
 } // namespace
 
-void
+PieceMeasures
 measureInside(const ClosedMesh& mesh,
               const CloudView& samples,
               unsigned threads,
@@ -208,13 +251,19 @@ measureInside(const ClosedMesh& mesh,
 {
   const std::vector<std::string> names = listScalars(samples.fields);
   StepTimer step(report, "inside", (2 + names.size()) * samples.count);
-  const MeshColumns columns(mesh.places, mesh.triangles, mesh.piece_of);
+  const MeshColumns columns(mesh.places, mesh.triangles, mesh.piece_of, mesh.closure);
+  const auto place_of = [&](std::size_t i) {
+    const float* const place = samples.xyz(i);
+    Eigen::Vector3d in_box(place[0], place[1], place[2]);
+    if (mesh.closure != nullptr)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        in_box[static_cast<int>(axis)] =
+            mesh.box.low[axis] + mesh.box.toBox(static_cast<double>(place[axis]), axis);
+    return in_box;
+  };
   const std::vector<InnerPoint> inner =
-      findInner(columns, samples.count, threads, step, [&](std::size_t i) {
-        const float* const place = samples.xyz(i);
-        return Eigen::Vector3d(place[0], place[1], place[2]);
-      });
-  const CellIntegrals cells(columns, samples, threads, step, report);
+      findInner(columns, samples.count, threads, step, place_of);
+  const CellIntegrals cells(columns, samples, place_of, threads, step, report);
   for (const InnerPoint& point : inner)
     pieces[static_cast<std::size_t>(point.piece)].samples += point.turns;
   for (const std::string& name : names) {
@@ -240,13 +289,43 @@ measureInside(const ClosedMesh& mesh,
   for (PieceMeasures& piece : pieces)
     if (piece.rims > 0)
       piece.samples = 0;
+  const double of_box = mesh.closure != nullptr ? mesh.closure->getBoxVolume() : 0.0;
+  return of_box > 0.0 ? describeBox(samples, names, cells, of_box) : PieceMeasures();
 }
 
 void
-addInside(const PieceMeasures& piece, PieceMeasures& all)
+sumBeyond(const CloudView& samples,
+          const ScalarField& field,
+          Outside outside,
+          std::vector<PieceMeasures>& isovalues)
 {
-  all.samples += piece.samples;
-  if (all.inside.empty()) {
+  const std::vector<std::string> names = listScalars(samples.fields);
+  for (PieceMeasures& all : isovalues) {
+    if (std::isnan(all.isovalue))
+      continue;
+    std::vector<std::uint32_t> beyond;
+    for (std::size_t i = 0; i < samples.count; ++i) {
+      const double value = field.read(samples.point(i));
+      if (outside == Outside::Lower ? value >= all.isovalue : value <= all.isovalue)
+        beyond.push_back(static_cast<std::uint32_t>(i));
+    }
+    all.samples_beyond = static_cast<std::int64_t>(beyond.size());
+    for (const std::string& name : names) {
+      const ScalarField summed(samples.fields, name);
+      double sum = 0.0;
+      for (const std::uint32_t i : beyond)
+        if (const double value = summed.read(samples.point(i)); std::isfinite(value))
+          sum += value;
+      all.sums_beyond.push_back({name, sum});
+    }
+  }
+}
+
+void
+addInside(const PieceMeasures& piece, PieceMeasures& all, int times)
+{
+  all.samples += times * piece.samples;
+  if (all.inside.empty() && times == 1) {
     all.inside = piece.inside;
     return;
   }
@@ -256,10 +335,11 @@ addInside(const PieceMeasures& piece, PieceMeasures& all)
     // A piece without samples has no integral, and hardly any volume.
     if (std::isfinite(from.integral.value)) {
       const bool is_first = !std::isfinite(to.integral.value);
-      to.integral.value = from.integral.value + (is_first ? 0.0 : to.integral.value);
+      to.integral.value =
+          times * from.integral.value + (is_first ? 0.0 : to.integral.value);
       to.integral.error = from.integral.error + (is_first ? 0.0 : to.integral.error);
     }
-    to.sum += from.sum;
+    to.sum += times * from.sum;
   }
 }
 

@@ -141,14 +141,94 @@ private:
   HalfEdges edges_;
 };
 
+/** Joins the pieces whose vertices are images of one another, as in a welded mesh.
+ * \param sources by vertex the one that `image_of` has a value for */
 void
-integrate(MeasuredSurface& surface, bool curved)
+joinImages(const ScalarField& image_of,
+           const CloudView& vertices,
+           const std::vector<std::uint32_t>& sources,
+           const std::vector<Triangle>& triangles,
+           PieceList& list)
+{
+  std::vector<Triangle> joined = triangles;
+  for (Triangle& triangle : joined)
+    for (std::uint32_t& vertex : triangle) {
+      const double image = image_of.read(vertices.point(sources[vertex]));
+      const auto other = image >= 0.0 && image < static_cast<double>(vertices.count)
+                             ? static_cast<std::uint32_t>(image)
+                             : sources[vertex];
+      // Copies of a vertex stay apart unless they are images.
+      vertex = other == sources[vertex] ? vertex : other;
+    }
+  const std::size_t count = sources.size();
+  if (HalfEdges(joined, count).getDefects().edges > 0)
+    return; // the box is so small that triangles share more than an edge
+  std::vector<std::uint32_t> copies;
+  const std::size_t all = count + splitPinchedVertices(joined, count, copies);
+  list = findPieces(joined, all);
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (std::size_t i = 0; i < 3; ++i)
+      list.of_vertex[triangles[t][i]] = list.of_vertex[joined[t][i]];
+  list.of_vertex.resize(count);
+}
+
+/** Counts the rims of pieces that do not run in the faces of the box. */
+void
+countOpenRims(const std::vector<bool>& is_in_face, MeasuredSurface& surface)
+{
+  const HalfEdges edges(surface.triangles, surface.corners.size());
+  for (SurfacePiece& piece : surface.list.pieces)
+    piece.rims = 0;
+  std::vector<bool> is_met(is_in_face.size());
+  for (HalfEdge start = 0; start < is_met.size(); ++start) {
+    if (is_met[start] || edges.twinOf(start) != HalfEdges::none)
+      continue;
+    bool is_open = false;
+    for (HalfEdge edge = start; !is_met[edge];
+         edge = edges.firstOf(edges.targetOf(edge))) {
+      is_met[edge] = true;
+      is_open = is_open || !is_in_face[edge];
+    }
+    if (is_open)
+      ++surface.list
+            .pieces[static_cast<std::size_t>(
+                surface.list.of_vertex[edges.originOf(start)])]
+            .rims;
+  }
+}
+
+/** Gives the pieces that were cut at the faces of a box the volume within the box.
+ * \param is_in_face by half edge */
+void
+closeThroughBox(const std::vector<bool>& is_in_face, MeasuredSurface& surface)
+{
+  countOpenRims(is_in_face, surface);
+  for (std::size_t i = 0; i < surface.integrals.size(); ++i) {
+    SurfaceIntegrals& all = surface.integrals[i];
+    if (!surface.closure->isCut(i))
+      continue;
+    const double center = surface.bounds[i].center()[2];
+    all.volume =
+        surface.closure->findVolume(i, all.below + center * all.flux, all.flux);
+    all.is_solid = false;
+  }
+}
+
+void
+integrate(MeasuredSurface& surface, bool curved, const PeriodicBox& box)
 {
   surface.integrals.resize(surface.list.pieces.size());
   surface.cap_areas.assign(surface.list.pieces.size(), 0.0);
   surface.shares.assign(surface.corners.size(), 0.0);
   surface.rim_lengths.assign(surface.corners.size(), 0.0);
   std::vector<double> against(surface.list.pieces.size()); // areas
+  std::vector<bool> is_in_face(3 * surface.triangles.size());
+  std::vector<Eigen::Vector3d> places;
+  if (isPeriodic(box.sides)) {
+    surface.closure.emplace(box, surface.list.pieces.size());
+    for (const SurfaceCorner& corner : surface.corners)
+      places.push_back(corner.place);
+  }
   const CapEdges caps(surface);
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     const Triangle& triangle = surface.triangles[t];
@@ -169,6 +249,16 @@ integrate(MeasuredSurface& surface, bool curved)
       if (planes[i].isZero(0.0) && !caps.isAtRim(t, i))
         continue;
       const std::size_t a = (i + 1) % 3, b = (i + 2) % 3;
+      if (surface.closure && caps.isAtRim(t, i) &&
+          surface.closure->addRim(piece,
+                                  places,
+                                  triangle[a],
+                                  triangle[b],
+                                  curved ? bent.getBulge(i)
+                                         : Eigen::Vector3d::Zero())) {
+        is_in_face[3 * t + a] = true;
+        continue;
+      }
       const double length = (corners[b].place - corners[a].place).norm();
       surface.rim_lengths[triangle[a]] += 0.5 * length;
       surface.rim_lengths[triangle[b]] += 0.5 * length;
@@ -179,6 +269,8 @@ integrate(MeasuredSurface& surface, bool curved)
     SurfaceIntegrals& all = surface.integrals[i];
     all.area_error += 2.0 * std::min(against[i], all.area - against[i]);
   }
+  if (surface.closure)
+    closeThroughBox(is_in_face, surface);
 }
 
 } // namespace
@@ -212,14 +304,15 @@ findScalar(const CloudView& vertices, const char* name)
 std::vector<NamedScalar>
 listMeasuredFields(const std::vector<pcl::PCLPointField>& fields)
 {
-  static const std::array<std::string, 8> others = {"isovalue",
+  static const std::array<std::string, 9> others = {"isovalue",
                                                     "edge_length",
                                                     "support",
                                                     "method",
                                                     "orientation",
                                                     "piece",
                                                     "cap",
-                                                    "area"};
+                                                    "area",
+                                                    "image_of"};
   std::vector<NamedScalar> scalars = listNamedScalars(fields);
   scalars.erase(std::remove_if(scalars.begin(),
                                scalars.end(),
@@ -265,6 +358,7 @@ findBounds(MeasuredSurface& surface)
 MeasuredSurface
 measureMesh(const CloudView& vertices,
             const std::vector<Triangle>& triangles,
+            const PeriodicBox& box,
             bool curved)
 {
   checkTriangles(vertices, triangles);
@@ -273,6 +367,9 @@ measureMesh(const CloudView& vertices,
   surface.sources.resize(vertices.count);
   std::iota(surface.sources.begin(), surface.sources.end(), 0u);
   surface.list = findManifoldPieces(surface.triangles, surface.sources);
+  const std::optional<ScalarField> image_of = findScalar(vertices, "image_of");
+  if (isPeriodic(box.sides) && image_of)
+    joinImages(*image_of, vertices, surface.sources, surface.triangles, surface.list);
   std::optional<std::vector<SurfaceCorner>> corners = readCorners(vertices);
   const bool has_normals = corners.has_value();
   if (!has_normals) {
@@ -287,7 +384,7 @@ measureMesh(const CloudView& vertices,
     surface.corners.back().is_on_cap = cap && cap->read(vertices.point(source)) != 0.0;
   }
   findBounds(surface);
-  integrate(surface, curved && has_normals);
+  integrate(surface, curved && has_normals, box);
   return surface;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "common/scalar_names.h"
+#include "mesh/box_closure.h"
 #include "mesh/curved_triangle.h"
 #include "mesh/surface_pieces.h"
 #include <pcl_uvol/common/cloud_view.h>
@@ -49,6 +50,9 @@ struct MeasuredSurface {
    */
   std::vector<double> rim_lengths;
   std::vector<double> cap_areas; ///< by piece; as above
+  /** Closes the pieces that were cut at the faces of a periodic box; such a piece has
+   * no rims in the faces, and no moments. */
+  std::optional<BoxClosure> closure;
 };
 
 /** \brief The place of a point with its unit normal: 0 where that is not finite;
@@ -63,7 +67,9 @@ findBounds(MeasuredSurface& surface);
 /** \brief Measure a mesh of manifold pieces. Vertices at which several fans of
  * triangles meet have a copy for each: see sources.
  *
- * \param vertices with normals and `cap`, if they have these fields
+ * \param vertices with normals, `cap` and `image_of`, if they have these fields
+ *
+ * \param box periodic box that the mesh was cut at; sides of 0: none
  *
  * \param curved bend triangles as the normals tell, if there are any
  *
@@ -72,6 +78,7 @@ findBounds(MeasuredSurface& surface);
 MeasuredSurface
 measureMesh(const CloudView& vertices,
             const std::vector<Triangle>& triangles,
+            const PeriodicBox& box,
             bool curved);
 
 } // namespace pcl_uvol::detail

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/mesh_columns.h"
 
+#include "mesh/box_closure.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -26,12 +28,47 @@ sideOf(const std::vector<Eigen::Vector3d>& places,
 
 } // namespace
 
+int
+crossingBehind(const std::vector<Eigen::Vector3d>& places,
+               std::uint32_t from,
+               std::uint32_t to,
+               const Eigen::Vector3d& place)
+{
+  const bool starts_left = places[from][0] <= place[0],
+             ends_left = places[to][0] <= place[0];
+  if (starts_left == ends_left)
+    return 0;
+  const double side = sideOf(places, std::min(from, to), std::max(from, to), place);
+  const bool goes_right = starts_left == (from < to);
+  if ((side < 0.0) != goes_right)
+    return 0;
+  return starts_left ? -1 : 1;
+}
+
+void
+addTurns(std::int32_t piece, int turns, std::vector<Winding>& found)
+{
+  if (turns == 0)
+    return;
+  const auto at = std::lower_bound(
+      found.begin(),
+      found.end(),
+      piece,
+      [](const Winding& winding, std::int32_t other) { return winding.piece < other; });
+  if (at != found.end() && at->piece == piece)
+    at->turns += turns;
+  else
+    found.insert(at, {piece, turns});
+}
+
 MeshColumns::MeshColumns(const std::vector<Eigen::Vector3d>& places,
                          const std::vector<Triangle>& triangles,
-                         const std::vector<std::int32_t>& piece_of)
+                         const std::vector<std::int32_t>& piece_of,
+                         const BoxClosure* closure)
     : places_(places)
     , triangles_(triangles)
     , piece_of_(piece_of)
+    , closure_(closure)
 {
   low_ = high_ = places.empty() ? Eigen::Vector3d::Zero().eval() : places.front();
   for (const Eigen::Vector3d& place : places) {
@@ -89,17 +126,8 @@ MeshColumns::crossingOf(const Triangle& triangle, const Eigen::Vector3d& place) 
 {
   // Edges that pass behind the place, in the direction of y, from left to right.
   int turns = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::uint32_t from = triangle[i], to = triangle[(i + 1) % 3];
-    const bool starts_left = places_[from][0] <= place[0],
-               ends_left = places_[to][0] <= place[0];
-    if (starts_left == ends_left)
-      continue;
-    const double side = sideOf(places_, std::min(from, to), std::max(from, to), place);
-    const bool goes_right = starts_left == (from < to);
-    if ((side < 0.0) == goes_right)
-      turns += starts_left ? -1 : 1;
-  }
+  for (std::size_t i = 0; i < 3; ++i)
+    turns += crossingBehind(places_, triangle[i], triangle[(i + 1) % 3], place);
   if (turns == 0)
     return 0;
   const Eigen::Vector3d a = places_[triangle[0]] - place,
@@ -110,31 +138,31 @@ MeshColumns::crossingOf(const Triangle& triangle, const Eigen::Vector3d& place) 
 }
 
 void
-MeshColumns::findAround(const Eigen::Vector3d& place, std::vector<Winding>& found) const
+MeshColumns::addCrossings(const Eigen::Vector3d& place,
+                          std::vector<Winding>& found) const
 {
-  found.clear();
-  if (!((place.array() >= low_.array()).all() &&
-        (place.array() <= high_.array()).all()))
+  // Rays from below the mesh leave closed pieces as often as they enter them.
+  const bool is_beside = (place.array() < low_.array()).head(2).any() ||
+                         (place.array() > high_.array()).any();
+  if (is_beside || (closure_ == nullptr && place[2] < low_[2]))
     return;
   const std::size_t column =
       columnOf(1, place[1]) * columns_[0] + columnOf(0, place[0]);
   for (std::size_t i = begins_[column]; i < begins_[column + 1]; ++i) {
     const Triangle& triangle = triangles_[members_[i]];
-    const int turns = crossingOf(triangle, place);
-    if (turns == 0)
-      continue;
-    const std::int32_t piece = piece_of_[triangle[0]];
-    const auto at = std::lower_bound(found.begin(),
-                                     found.end(),
-                                     piece,
-                                     [](const Winding& winding, std::int32_t other) {
-                                       return winding.piece < other;
-                                     });
-    if (at != found.end() && at->piece == piece)
-      at->turns += turns;
-    else
-      found.insert(at, {piece, turns});
+    addTurns(piece_of_[triangle[0]], crossingOf(triangle, place), found);
   }
+}
+
+void
+MeshColumns::findAround(const Eigen::Vector3d& place, std::vector<Winding>& found) const
+{
+  found.clear();
+  if (!place.allFinite())
+    return;
+  addCrossings(place, found);
+  if (closure_ != nullptr)
+    closure_->addTurns(places_, place, found);
   found.erase(std::remove_if(found.begin(),
                              found.end(),
                              [](const Winding& winding) { return winding.turns == 0; }),

@@ -2,6 +2,7 @@
 #include "common/parameter_json.h"
 #include "common/records.h"
 #include "mesh/inner_samples.h"
+#include "mesh/measure_warnings.h"
 #include "mesh/measured_mesh.h"
 #include "mesh/measured_points.h"
 #include "mesh/self_intersections.h"
@@ -36,9 +37,6 @@ using detail::findScalar;
 using detail::MeasuredSurface;
 using detail::SurfaceIntegrals;
 
-/** Share of a figure: one that is known no better is hardly one. */
-constexpr double large_error = 1.0 / 3.0;
-
 /** Share of the area: less without an estimated error changes figures by less than they
  * say.
  */
@@ -62,8 +60,10 @@ public:
       SurfaceIntegrals& integrals) const
   {
     const double error = error_ ? error_->read(vertices_.point(vertex)) : 0.0;
-    if (!std::isfinite(error))
+    if (!std::isfinite(error) || error < 0.0)
       return false;
+    // Of points, shares of single ones may be negative.
+    share = std::abs(share);
     integrals.volume_error += share * error;
     integrals.area_error += rim_length * error;
     const double curvature =
@@ -86,7 +86,8 @@ describeShape(const SurfaceIntegrals& integrals,
               const Eigen::Vector3d& center,
               PieceMeasures& piece)
 {
-  const bool is_solid = std::isfinite(piece.volume.value) && integrals.volume != 0.0;
+  const bool is_solid = integrals.is_solid && std::isfinite(piece.volume.value) &&
+                        integrals.volume != 0.0;
   const double whole = is_solid ? integrals.volume : integrals.area;
   // Second moments of a ball are a fifth of its squared radius, of a shell a third.
   const double per_moment = is_solid ? 5.0 : 3.0;
@@ -122,7 +123,8 @@ class Measurement {
 public:
   Measurement(MeasuredSurface surface,
               const CloudView& vertices,
-              const std::array<double, 3>& origin)
+              const std::array<double, 3>& origin,
+              bool drop_unsure)
       : surface_(std::move(surface))
       , vertices_(vertices)
       , origin_(origin[0], origin[1], origin[2])
@@ -141,6 +143,7 @@ public:
     for (std::size_t i = 0; i < surface_.integrals.size(); ++i)
       figures.pieces.push_back(describePiece(i));
     describeFields();
+    findUnsure(drop_unsure);
     nameIsovalues();
   }
 
@@ -160,67 +163,71 @@ public:
         ++i;
       join(begin, i, all);
     }
-    // Copies of a vertex are one again, whose piece is that of the first.
-    figures.piece_of.resize(vertices_.count);
     figures.vertex_areas.assign(vertices_.count, 0.0);
     for (std::size_t k = 0; k < surface_.shares.size(); ++k)
-      figures.vertex_areas[surface_.sources[k]] += surface_.shares[k];
+      if (figures.piece_of[k] >= 0)
+        figures.vertex_areas[surface_.sources[k]] += surface_.shares[k];
+    // Copies of a vertex are one again, whose piece is that of the first.
+    figures.piece_of.resize(vertices_.count);
+  }
+
+  /** Make volumes that are negative by less than their error, as those of a mesh in one
+   * plane are, what they can be at least: 0, without samples. */
+  void
+  clearNegative()
+  {
+    for (std::size_t i = 0; i < figures.pieces.size(); ++i) {
+      PieceMeasures& piece = figures.pieces[i];
+      SurfaceIntegrals& all = surface_.integrals[i];
+      const bool is_flat = detail::isFlat(all, piece);
+      if (piece.rims > 0 || (!is_flat && std::abs(all.volume) > all.volume_error))
+        continue;
+      if (all.volume < 0.0 || is_flat)
+        all.volume = piece.volume.value = 0.0;
+      if (piece.samples >= 0 && !is_flat)
+        continue;
+      piece.samples = 0;
+      for (InnerFieldMeasures& field : piece.inside)
+        field = {field.name, {}, std::numeric_limits<double>::quiet_NaN(), 0.0};
+    }
   }
 
   /** Find the samples within the pieces.
-   * \param origin of theirs */
+   * \param origin of theirs
+   * \param box in the coordinates of the vertices */
   void
   lookInside(const CloudView& samples,
              const std::array<double, 3>& origin,
+             const PeriodicBox& box,
              unsigned threads,
              Report& report)
   {
     const Eigen::Vector3d offset =
         origin_ - Eigen::Vector3d(origin[0], origin[1], origin[2]);
-    detail::ClosedMesh closed{{}, surface_.triangles, figures.piece_of};
+    detail::ClosedMesh closed{{}, surface_.triangles, figures.piece_of, nullptr, box};
     for (const detail::SurfaceCorner& corner : surface_.corners)
       closed.places.push_back(corner.place + offset);
-    detail::measureInside(closed, samples, threads, figures.pieces, report);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      closed.box.low[axis] += offset[static_cast<int>(axis)];
+    if (surface_.closure) {
+      surface_.closure->prepare(closed.places);
+      closed.closure = &*surface_.closure;
+    }
+    whole_box_ =
+        detail::measureInside(closed, samples, threads, figures.pieces, report);
   }
 
   void
   warn(Report& report) const
   {
-    const auto open = static_cast<std::size_t>(std::count_if(
-        figures.pieces.begin(), figures.pieces.end(), [](const PieceMeasures& piece) {
-          return piece.rims > 0;
-        }));
-    if (open > 0)
+    const double part = area_ > 0.0 ? without_error_ / area_ : 0.0;
+    if (part > much_without_error)
       report.warnings.push_back(
-          "Of " + std::to_string(figures.pieces.size()) + " pieces " +
-          std::to_string(open) +
-          " are open, or disagree with others about the outside: they enclose no "
-          "volume, and only their area is measured.");
-    if (without_error_ > much_without_error * area_)
-      report.warnings.push_back(
-          std::to_string(std::lround(100.0 * without_error_ / area_)) +
+          std::to_string(std::lround(100.0 * part)) +
           " % of the area has vertices without an estimated error: the errors of the "
           "figures are those of the rest.");
-    const auto vague = std::count_if(
-        figures.isovalues.begin(),
-        figures.isovalues.end(),
-        [](const PieceMeasures& all) {
-          return all.volume.error > large_error * std::abs(all.volume.value) ||
-                 all.area.error > large_error * all.area.value;
-        });
-    if (vague > 0)
-      report.warnings.push_back(
-          "Area or volume of " + std::to_string(vague) + " of " +
-          std::to_string(figures.isovalues.size()) +
-          " surfaces are not known to better than a third: vertices lie that far from "
-          "where the surface may be.");
-    for (const PieceMeasures& all : figures.isovalues)
-      if (all.volume.value < -all.volume.error) {
-        report.warnings.push_back(
-            "The surface looks to the side that it encloses: volumes are "
-            "negative.");
-        break;
-      }
+    detail::warnOfMeasures(figures, report);
+    detail::warnOfUnsure(unsure_, report);
   }
 
   SurfaceFigures figures;
@@ -280,6 +287,25 @@ private:
     }
   }
 
+  /** Find the pieces that are known no better than to their own size, and leave them
+   * out if that is asked for, unless nothing would be left. */
+  void
+  findUnsure(bool drop)
+  {
+    unsure_.pieces = figures.pieces.size();
+    for (const PieceMeasures& piece : figures.pieces) {
+      is_left_out_.push_back(detail::isUnsure(piece));
+      if (!is_left_out_.back())
+        continue;
+      ++unsure_.unsure;
+      unsure_.area.value += piece.area.value;
+      unsure_.area.error += piece.area.error;
+    }
+    unsure_.are_left_out = drop && unsure_.unsure < unsure_.pieces;
+    if (!unsure_.are_left_out)
+      is_left_out_.assign(is_left_out_.size(), false);
+  }
+
   /** Put the pieces in the order of their isovalues' first vertices. */
   void
   nameIsovalues()
@@ -296,15 +322,16 @@ private:
         figures.pieces[piece].isovalue = isovalue;
       });
     }
-    std::vector<std::size_t> places(figures.pieces.size());
-    for (std::size_t i = 0; i < places.size(); ++i)
-      places[i] = i;
+    std::vector<std::size_t> places;
+    for (std::size_t i = 0; i < figures.pieces.size(); ++i)
+      if (!is_left_out_[i])
+        places.push_back(i);
     std::stable_sort(places.begin(), places.end(), [&](std::size_t a, std::size_t b) {
       return rank[a] < rank[b];
     });
     std::vector<PieceMeasures> sorted;
     std::vector<SurfaceIntegrals> integrals;
-    std::vector<std::int32_t> number(places.size());
+    std::vector<std::int32_t> number(figures.pieces.size(), -1);
     for (std::size_t i = 0; i < places.size(); ++i) {
       sorted.push_back(figures.pieces[places[i]]);
       integrals.push_back(surface_.integrals[places[i]]);
@@ -313,9 +340,17 @@ private:
     }
     figures.pieces = std::move(sorted);
     surface_.integrals = std::move(integrals);
+    if (surface_.closure)
+      surface_.closure->renumber(number);
     for (const std::int32_t piece : surface_.list.of_vertex)
       figures.piece_of.push_back(piece < 0 ? -1
                                            : number[static_cast<std::size_t>(piece)]);
+    surface_.triangles.erase(std::remove_if(surface_.triangles.begin(),
+                                            surface_.triangles.end(),
+                                            [&](const Triangle& triangle) {
+                                              return figures.piece_of[triangle[0]] < 0;
+                                            }),
+                             surface_.triangles.end());
   }
 
   void
@@ -342,11 +377,29 @@ private:
     }
     std::copy_n(bounds.min().data(), 3, all.low.begin());
     std::copy_n(bounds.max().data(), 3, all.high.begin());
+    if (surface_.closure && all.rims == 0)
+      fitIntoBox(integrals, all);
     describeSize(integrals, all);
     describeShape(integrals, center, all);
     joinFields(begin, end, all);
     for (InnerFieldMeasures& field : all.inside)
-      field.mean = field.integral.value / all.volume.value;
+      field.mean = all.volume.value != 0.0 ? field.integral.value / all.volume.value
+                                           : std::numeric_limits<double>::quiet_NaN();
+  }
+
+  /** Where pieces count what is outside of them, the box is added to what they enclose
+   * together. */
+  void
+  fitIntoBox(SurfaceIntegrals& integrals, PieceMeasures& all) const
+  {
+    const double box = surface_.closure->getBoxVolume();
+    if (!(box > 0.0) || (integrals.volume >= -integrals.volume_error &&
+                         integrals.volume <= box + integrals.volume_error))
+      return;
+    const int times = -static_cast<int>(std::floor(integrals.volume / box));
+    integrals.volume += times * box;
+    integrals.is_solid = false;
+    detail::addInside(whole_box_, all, times);
   }
 
   /** Field by field the sums over some pieces, of those that have a value. */
@@ -385,9 +438,30 @@ private:
   MeasuredSurface surface_;
   const CloudView& vertices_;
   Eigen::Vector3d origin_;
+  PieceMeasures whole_box_; // what its samples are
+  detail::UnsurePieces unsure_;
+  std::vector<bool> is_left_out_;           // by piece, before they have an order
   double area_ = 0.0, without_error_ = 0.0; // of it, where no vertex tells its error
   std::vector<Eigen::Vector3d> centers_;    // by piece, that integrals are relative to
 };
+
+/** The periodic box that a mesh was cut at, in the coordinates of its vertices. */
+PeriodicBox
+findBox(const Dataset& vertices,
+        const std::shared_ptr<const Dataset>& samples,
+        const Eigen::Array3d& periodic)
+{
+  const std::array<double, 3> sides{{periodic[0], periodic[1], periodic[2]}};
+  checkPeriodic(sides);
+  if (!isPeriodic(sides))
+    return {};
+  const Dataset& extent = samples ? *samples : vertices;
+  Report unused; // whoever extracted the surface has reported on the box
+  PeriodicBox box = findPeriodicBox(extent, sides, unused);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    box.low[axis] += extent.origin[axis] - vertices.origin[axis];
+  return box;
+}
 
 } // namespace
 
@@ -398,23 +472,31 @@ SurfaceMeasures::compute()
     throw InvalidArgument("SurfaceMeasures has no surface: call setInputSurface.");
   startReport();
   const StepTimer timer(report_, "measures");
-  if (triangles_.empty() && samples_)
+  if (triangles_.empty() && samples_ && parameters_.field.empty())
     throw InvalidArgument(
         "Samples inside are found by triangles, and the surface has none.");
   CloudView vertices = viewOf(vertices_->cloud);
   vertices.fields = listNumberFields(*vertices_); // names have no mean
+  const PeriodicBox box = findBox(*vertices_, samples_, parameters_.periodic);
   Measurement measurement(
       triangles_.empty()
           ? detail::measurePoints(vertices, threads_, report_)
-          : detail::measureMesh(vertices, triangles_, parameters_.curved),
+          : detail::measureMesh(vertices, triangles_, box, parameters_.curved),
       vertices,
-      vertices_->origin);
+      vertices_->origin,
+      parameters_.drop_unsure);
+  CloudView samples;
   if (samples_) {
-    CloudView samples = viewOf(samples_->cloud);
+    samples = viewOf(samples_->cloud);
     samples.fields = listNumberFields(*samples_);
-    measurement.lookInside(samples, samples_->origin, threads_, report_);
+    if (!triangles_.empty())
+      measurement.lookInside(samples, samples_->origin, box, threads_, report_);
   }
+  measurement.clearNegative();
   measurement.joinPieces();
+  if (const auto field = findScalar(samples, parameters_.field.c_str()))
+    detail::sumBeyond(
+        samples, *field, parameters_.outside, measurement.figures.isovalues);
   measurement.warn(report_);
   if (parameters_.find_intersections)
     measurement.figures.intersections = detail::describeIntersections(

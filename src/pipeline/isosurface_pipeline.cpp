@@ -21,6 +21,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -136,6 +137,44 @@ keepIsovalues(const pcl::PointCloud<PointIso>& isopoints,
   setField(surface, "isovalue", values);
 }
 
+/** Gives the vertices of a mesh the isovalue as their value of the field that the mesh
+ * is an isosurface of: between samples of a steep field the interpolated value is far
+ * from it. Vertices on caps, lengths of vectors and integers are left as they are.
+ * \param own fields of isopoints, which come before those of the samples */
+void
+putIsovalues(const SurfaceTriangles& found,
+             const std::string& field,
+             const std::vector<double>& isovalues,
+             std::size_t own,
+             pcl::PCLPointCloud2& cloud)
+{
+  const ScalarField scalar(cloud.fields, field);
+  const FieldComponent& component = scalar.getComponents().front();
+  if (own == cloud.fields.size() || component.offset < cloud.fields[own].offset)
+    return; // a coordinate, or another field of isopoints
+  const bool is_float = component.datatype == pcl::PCLPointField::FLOAT32;
+  if (scalar.isLength() ||
+      (!is_float && component.datatype != pcl::PCLPointField::FLOAT64))
+    return;
+  std::map<float, double> exact;
+  for (const double isovalue : isovalues)
+    exact.emplace(static_cast<float>(isovalue), isovalue);
+  for (std::size_t i = 0; i < found.vertices.size(); ++i) {
+    if (found.is_on_cap[i] != 0)
+      continue;
+    const auto known = exact.find(found.vertices[i].isovalue);
+    if (known == exact.end())
+      continue;
+    const double isovalue = known->second;
+    const auto rounded = static_cast<float>(isovalue);
+    std::uint8_t* const to = &cloud.data[i * cloud.point_step + component.offset];
+    if (is_float)
+      std::memcpy(to, &rounded, sizeof(rounded));
+    else
+      std::memcpy(to, &isovalue, sizeof(isovalue));
+  }
+}
+
 /** Count isopoints again whose support an extraction has counted. */
 void
 countSupports(const pcl::PointCloud<PointIso>& isopoints, Report& report)
@@ -199,7 +238,18 @@ finish(const Dataset& samples,
     choice.addFields(parameters.isosurface.interpolation == Interpolation::Auto,
                      result.surface);
     warnOfReplacedFields(view.fields, result.surface.cloud.fields, report);
+    const auto& fields = result.surface.cloud.fields;
+    const auto own_fields = static_cast<std::size_t>(
+        std::count_if(fields.begin(), fields.end(), [](const auto& field) {
+          return !isPadding(field);
+        }));
     interpolateFields(view, edges, result.surface.cloud, threads);
+    if (parameters.mesh)
+      putIsovalues(found,
+                   parameters.isosurface.field,
+                   parameters.isosurface.isovalues,
+                   own_fields,
+                   result.surface.cloud);
   }
   result.edges = std::move(edges);
   result.sampling = sampling;

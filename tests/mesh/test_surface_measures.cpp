@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <pcl/conversions.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -306,6 +307,113 @@ TEST(SurfaceMeasures, SaysWhereASurfaceGoesThroughItself)
   }
   ASSERT_EQ(1u, measures.getReport().warnings.size());
   EXPECT_NE(std::string::npos, measures.getReport().warnings[0].find("through itself"));
+}
+
+/** Samples at random in the unit cube, with a mass of 2. */
+std::shared_ptr<Dataset>
+makeUnitMasses(std::size_t count, const Eigen::Vector3d& sides)
+{
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform;
+  std::vector<double> xyz;
+  for (std::size_t i = 0; i < 3 * count; ++i)
+    xyz.push_back(sides[static_cast<int>(i % 3)] * uniform(random));
+  auto samples = std::make_shared<Dataset>();
+  samples->cloud.width = static_cast<std::uint32_t>(count);
+  samples->cloud.height = 1;
+  setCoordinates(*samples, xyz);
+  setField(*samples, "mass", std::vector<double>(count, 2.0));
+  return samples;
+}
+
+TEST(SurfaceMeasures, LeavesOutPiecesThatAreKnownNoBetterThanTheirSize)
+{
+  MeasuredShape two = makeEllipsoid({2.0, 2.0, 2.0}, 3);
+  const std::size_t body = two.places.size();
+  MeasuredShape debris = makeEllipsoid({1.0, 1.0, 1.0}, 1);
+  debris.transform(Eigen::Matrix3d::Identity(), {50.0, 0.0, 0.0});
+  two.append(debris);
+  const auto vertices = std::make_shared<Dataset>(two.toDataset());
+  std::vector<double> errors(two.places.size(), 20.0);
+  std::fill_n(errors.begin(), body, 0.001);
+  setField(*vertices, "error", errors);
+  SurfaceMeasures measures;
+  measures.setInputSurface(vertices, two.triangles);
+  const SurfaceFigures all = measures.compute();
+  EXPECT_EQ(2u, all.pieces.size());
+  ASSERT_FALSE(measures.getReport().warnings.empty());
+  EXPECT_NE(std::string::npos,
+            measures.getReport().warnings.back().find("1 of 2 pieces"));
+  EXPECT_NE(std::string::npos,
+            measures.getReport().warnings.back().find("Try: -drop-unsure"));
+  SurfaceMeasuresParameters parameters;
+  parameters.drop_unsure = true;
+  measures.setParameters(parameters);
+  measures.setInputSamples(makeUnitMasses(100, {1.0, 1.0, 1.0}));
+  const SurfaceFigures sure = measures.compute();
+  ASSERT_EQ(1u, sure.pieces.size());
+  expectWithin(sure.isovalues[0].volume, 32.0 / 3.0 * M_PI, 1e-3);
+  EXPECT_EQ(100, sure.isovalues[0].samples);
+  EXPECT_EQ(0, sure.piece_of[0]);
+  EXPECT_EQ(-1, sure.piece_of[body]);
+  EXPECT_EQ(0.0, sure.vertex_areas[body]);
+  // Nothing is left out where nothing would be left.
+  setField(*vertices, "error", std::vector<double>(errors.size(), 20.0));
+  EXPECT_EQ(2u, measures.compute().pieces.size());
+}
+
+TEST(SurfaceMeasures, MeshesInOnePlaneHaveNoVolumeAndNoSamplesInside)
+{
+  Eigen::Matrix3d turn;
+  turn = Eigen::AngleAxisd(0.4, Eigen::Vector3d(1.0, 2.0, 3.0).normalized());
+  for (const Eigen::Matrix3d& axes :
+       {Eigen::Matrix3d(Eigen::Matrix3d::Identity()), turn}) {
+    MeasuredShape sheet = makeBox({1.0, 1.0, 0.0});
+    sheet.transform(axes, {7.0, -5.0, 53.0});
+    SurfaceMeasures measures;
+    measures.setInputSurface(std::make_shared<Dataset>(sheet.toDataset()),
+                             sheet.triangles);
+    measures.setInputSamples(makeUnitMasses(100, {1.0, 1.0, 0.0}));
+    const PieceMeasures all = measures.compute().isovalues.at(0);
+    EXPECT_NEAR(2.0, all.area.value, 1e-4);
+    EXPECT_EQ(0.0, all.volume.value);
+    EXPECT_EQ(0, all.samples);
+    EXPECT_TRUE(std::isnan(all.inside.at(0).mean));
+    ASSERT_FALSE(measures.getReport().warnings.empty());
+    EXPECT_NE(std::string::npos,
+              measures.getReport().warnings[0].find("surfaces have no volume"));
+  }
+}
+
+TEST(SurfaceMeasures, SumsSamplesBeyondTheIsovalueWhereverTheyAre)
+{
+  MeasuredShape ball = makeEllipsoid({0.5, 0.5, 0.5}, 3);
+  ball.isovalues.assign(ball.places.size(), 0.25f);
+  const auto samples = makeUnitMasses(100, {1.0, 1.0, 1.0});
+  std::vector<double> values;
+  for (int i = 0; i < 100; ++i)
+    values.push_back(0.01 * i);
+  setField(*samples, "f", values);
+  SurfaceMeasures measures;
+  measures.setInputSurface(std::make_shared<Dataset>(ball.toDataset()), ball.triangles);
+  measures.setInputSamples(samples);
+  EXPECT_FALSE(measures.compute().isovalues[0].samples_beyond);
+  SurfaceMeasuresParameters parameters;
+  parameters.field = "f";
+  for (const auto& [outside, count] :
+       {std::pair{Outside::Lower, 75}, {Outside::Higher, 26}}) {
+    parameters.outside = outside;
+    measures.setParameters(parameters);
+    const SurfaceFigures figures = measures.compute();
+    const PieceMeasures& all = figures.isovalues[0];
+    EXPECT_EQ(count, all.samples_beyond.value());
+    EXPECT_EQ("mass", all.sums_beyond.at(0).name);
+    EXPECT_EQ(2.0 * count, all.sums_beyond[0].sum);
+    EXPECT_FALSE(figures.pieces[0].samples_beyond);
+  }
+  parameters.periodic = {-1.0, 0.0, 0.0};
+  measures.setParameters(parameters);
+  EXPECT_THROW(measures.compute(), InvalidArgument);
 }
 
 TEST(SurfaceMeasures, UnitsAndPlacesChangeNothing)

@@ -2,18 +2,18 @@
 #include "shared/measure_table.h"
 
 #include "common/number_range.h"
-#include "common/numbers.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
-#include <sstream>
 
 namespace uvol_tools {
 
 using pcl_uvol::InnerFieldMeasures;
 using pcl_uvol::Measure;
 using pcl_uvol::PieceMeasures;
+using pcl_uvol::SampleSum;
 using pcl_uvol::SurfaceFieldMeasures;
 
 namespace {
@@ -26,14 +26,16 @@ constexpr const char* axis_names[] = {"x", "y", "z"};
 std::string
 describe(const Measure& measure)
 {
-  std::ostringstream text;
+  FactText text;
+  if (!std::isfinite(measure.value))
+    return "unknown";
   if (measure.error > 0.0 && std::isfinite(measure.error)) {
     const double digits =
         std::floor(std::log10(std::abs(measure.value) / measure.error)) + 3.0;
     text.precision(static_cast<int>(std::clamp(digits, 2.0, 12.0)));
   }
   text << measure.value;
-  std::ostringstream error;
+  FactText error;
   error.precision(2);
   error << measure.error;
   return text.str() + " +- " + error.str();
@@ -42,7 +44,7 @@ describe(const Measure& measure)
 std::string
 plural(std::int64_t count, const std::string& thing)
 {
-  return pcl_uvol::describeCount(static_cast<std::uint64_t>(count), thing, thing + "s");
+  return std::to_string(count) + " " + thing + (std::abs(count) == 1 ? "" : "s");
 }
 
 std::string
@@ -50,7 +52,7 @@ describeSize(const PieceMeasures& surface, std::int64_t pieces)
 {
   std::string text = "area " + describe(surface.area);
   if (surface.cap_area > 0.0) {
-    std::ostringstream caps;
+    FactText caps;
     caps << " (caps " << surface.cap_area << ")";
     text += caps.str();
   }
@@ -64,6 +66,8 @@ describeSize(const PieceMeasures& surface, std::int64_t pieces)
     text += ", genus " + std::to_string(*surface.genus);
   if (!surface.inside.empty())
     text += ", " + plural(surface.samples, "sample") + " inside";
+  if (surface.samples_beyond)
+    text += ", " + plural(*surface.samples_beyond, "sample") + " beyond the isovalue";
   return text;
 }
 
@@ -75,26 +79,39 @@ describeParts(const PieceMeasures& surface, const std::string& of, Facts& facts)
     facts.push_back(Fact(name + of, text).withoutJson());
   };
   const auto vector = [](const Eigen::Vector3d& numbers) {
-    std::ostringstream text;
+    FactText text;
     text << numbers[0] << ", " << numbers[1] << ", " << numbers[2];
     return text.str();
   };
   add("centroid", vector(surface.centroid));
   add("half axes", vector(surface.half_axes));
   for (const SurfaceFieldMeasures& field : surface.on_surface) {
-    std::ostringstream mean;
+    FactText mean;
     mean << field.mean;
     add(field.name + " on it",
         "mean " + mean.str() + ", integral " + describe(field.integral));
   }
-  for (const InnerFieldMeasures& field : surface.inside) {
-    std::ostringstream mean, sum;
+  const auto describeBeyond = [&](std::size_t field) {
+    FactText sum;
+    if (field < surface.sums_beyond.size())
+      sum << ", of those beyond the isovalue " << surface.sums_beyond[field].sum;
+    return sum.str();
+  };
+  for (std::size_t i = 0; i < surface.inside.size(); ++i) {
+    const InnerFieldMeasures& field = surface.inside[i];
+    FactText mean, sum;
     mean << field.mean;
     sum << field.sum;
     add(field.name + " inside",
         "mean " + mean.str() + ", integral " + describe(field.integral) +
-            ", sum of samples " + sum.str());
+            ", sum of samples " + sum.str() + describeBeyond(i));
   }
+  if (surface.inside.empty())
+    for (const SampleSum& field : surface.sums_beyond) {
+      FactText sum;
+      sum << field.sum;
+      add(field.name + " beyond the isovalue", "sum of samples " + sum.str());
+    }
 }
 
 } // namespace
@@ -223,6 +240,10 @@ MeasureTable::addRow(const PieceMeasures& measures, double piece)
     putMeasure(field.name + "_volume_integral", field.integral);
     put(field.name + "_sample_sum", field.sum);
   }
+  if (measures.samples_beyond)
+    put("samples_beyond", static_cast<double>(*measures.samples_beyond));
+  for (const SampleSum& field : measures.sums_beyond)
+    put(field.name + "_beyond_sum", field.sum);
   // What an open surface among closed ones has not.
   for (auto& [name, numbers] : columns_)
     numbers.resize(rows + 1, none);

@@ -31,7 +31,8 @@ measureSurface(const std::shared_ptr<const pcl_uvol::Dataset>& vertices,
  * piece
  * (-1 for all of an isovalue), counts, area, volume, centroid, bounds, half axes and
  * axes, samples inside, and for each field its mean and integrals on the surface and
- * inside, and its sum over the samples inside. Errors stand in columns named ..._error.
+ * inside, and its sum over the samples inside; of isovalues also the samples beyond the
+ * isovalue and their sums. Errors are in columns named ..._error.
  */
 class MeasureTable {
 public:

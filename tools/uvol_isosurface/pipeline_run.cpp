@@ -33,6 +33,9 @@ measureResult(const Options& options,
   const bool is_measured = arguments.getMesh().isMeasured();
   pcl_uvol::SurfaceMeasuresParameters parameters;
   parameters.find_intersections = arguments.getMesh().isChecked();
+  parameters.field = result.field;
+  parameters.outside = arguments.parameters.isosurface.outside;
+  parameters.periodic = arguments.parameters.periodic;
   const bool is_mesh = !result.triangles.empty();
   if (result.surface.cloud.width == 0 ||
       arguments.parameters.mesh.has_value() != is_mesh ||
@@ -42,7 +45,7 @@ measureResult(const Options& options,
   const pcl_uvol::SurfaceFigures figures =
       measureSurface(vertices,
                      result.triangles,
-                     is_measured && is_mesh ? samples : nullptr,
+                     is_measured ? samples : nullptr,
                      arguments.parameters.isosurface.isovalues,
                      parameters,
                      options.threads(),

@@ -8,6 +8,7 @@
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/parameters.h>
 #include <pcl_uvol/common/stage.h>
+#include <pcl_uvol/isosurface/isosurface_extraction.h>
 
 #include <Eigen/Core>
 
@@ -32,6 +33,18 @@ struct PCL_UVOL_EXPORTS SurfaceMeasuresParameters {
   /** Look for triangles that go through one another, or touch without a vertex in
    * common; takes about as long as all the rest. */
   bool find_intersections = false;
+  /** Leave out pieces whose area and volume are known no better than to their own
+   * size, as those around debris are; they have no piece, and no share in the area. */
+  bool drop_unsure = false;
+  /** The field of the samples that the surface is an isosurface of: samples beyond the
+   * isovalue are then counted and summed. Empty, the default: it is not known. */
+  std::string field;
+  /** The outside of the isosurface, see IsosurfaceParameters::outside. */
+  Outside outside = Outside::Lower;
+  /** Sides of the periodic box that a mesh was cut at, in units of length; 0, the
+   * default: not periodic along that axis. The box is found by the samples, or without
+   * them by the vertices, see IsosurfacePipelineParameters::periodic. */
+  Eigen::Array3d periodic{0.0, 0.0, 0.0};
 
   /** \return The members under the names that JSON has for them. */
   static auto
@@ -39,7 +52,11 @@ struct PCL_UVOL_EXPORTS SurfaceMeasuresParameters {
   {
     using Own = SurfaceMeasuresParameters;
     return std::make_tuple(Member{"curved", &Own::curved},
-                           Member{"find_intersections", &Own::find_intersections});
+                           Member{"find_intersections", &Own::find_intersections},
+                           Member{"drop_unsure", &Own::drop_unsure},
+                           Member{"field", &Own::field},
+                           Member{"outside", &Own::outside},
+                           Member{"periodic", &Own::periodic});
   }
 
   /** \return All parameters as an object of JSON. */
@@ -74,6 +91,12 @@ struct InnerFieldMeasures {
   double sum;       ///< over the samples inside: of masses, their mass
 };
 
+/** \brief The sum of a field over some samples. */
+struct SampleSum {
+  std::string name;
+  double sum;
+};
+
 /** \brief Figures of a surface or a piece of it, in units of the coordinates. */
 struct PCL_UVOL_EXPORTS PieceMeasures {
   double isovalue; ///< NaN where the vertices have no field of that name
@@ -85,7 +108,10 @@ struct PCL_UVOL_EXPORTS PieceMeasures {
   Measure area;
   double cap_area = 0.0; ///< of it, of the caps that close the surface
   /** Enclosed, negative for a piece that looks inwards, as the wall of a cavity does;
-   * NaN where it is open. */
+   * NaN where it is open. In a periodic box a piece that the faces cut is closed by
+   * them: its volume is that of the inner or, negative, of the outer part of the box,
+   * whichever is smaller; of all pieces together it is that of the inner part. A
+   * negative volume that is no larger than its error is 0. */
   Measure volume;
   double capped_volume = 0.0; ///< of it, of pieces that caps close
   /** Centre and axes of the enclosed volume, or of the area where that is open or 0. @{
@@ -99,6 +125,12 @@ struct PCL_UVOL_EXPORTS PieceMeasures {
   std::vector<SurfaceFieldMeasures> on_surface;
   std::int64_t samples = 0; ///< inside; those in a cavity count for its wall as -1
   std::vector<InnerFieldMeasures> inside; ///< with samples, of closed surfaces
+  /** Of an isovalue, with samples and their field: the samples whose value is at the
+   * isovalue or on its inner side, wherever they are, and the sums of their fields. @{
+   */
+  std::optional<std::int64_t> samples_beyond;
+  std::vector<SampleSum> sums_beyond;
+  /** @} */
 };
 
 /** \brief Two triangles, by their indices, that go through one another, and where. */
@@ -140,6 +172,15 @@ struct PCL_UVOL_EXPORTS SurfaceFigures {
  * cell: within 2e-5 on spheres and tori of 15,000 isopoints, and within 5e-4 of 2,500.
  * What lies inside is not looked at, and handles are not counted. A mesh is more
  * accurate.
+ *
+ * In a periodic box a mesh ends at the faces. It is closed there through the box for
+ * volumes and for samples inside, whether or not it is welded; a welded mesh has pieces
+ * that go through the faces. Centroids and axes of pieces that are cut are those of
+ * their area in the box.
+ *
+ * Near small clumps of samples the surface is smoother than the samples: some of those
+ * beyond the isovalue are outside of it. Where the sum over samples is what you want,
+ * use sums_beyond, which does not depend on the surface.
  *
  * Where a surface ends, or meets a cap, what its vertices may be off by along it counts
  * as an error of the area.
@@ -202,7 +243,8 @@ public:
    * \throws InvalidArgument without a surface, for a vertex of a triangle that is not
    * finite or not there, for triangles that are no oriented manifold, for more than 10
    * million pairs of triangles that intersect, where these are looked for, and without
-   * triangles for points that have no normals, or with samples */
+   * triangles for points that have no normals, or with samples but no field of them;
+   * and for sides of a box that are negative or not finite */
   SurfaceFigures
   compute();
 

@@ -59,6 +59,11 @@ describe(const PieceMeasures& piece)
   dict["on_surface"] = on_surface;
   dict["samples"] = piece.samples;
   dict["inside"] = inside;
+  py::dict beyond;
+  for (const SampleSum& field : piece.sums_beyond)
+    beyond[toText(field.name)] = field.sum;
+  dict["samples_beyond"] = piece.samples_beyond;
+  dict["sums_beyond"] = beyond;
   return dict;
 }
 

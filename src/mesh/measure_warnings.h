@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which figures of surfaces are hardly known, and what is said of them.
+#pragma once
+
+#include "mesh/curved_triangle.h"
+#include <pcl_uvol/common/stage.h>
+#include <pcl_uvol/mesh/surface_measures.h>
+
+#include <cstddef>
+
+namespace pcl_uvol::detail {
+
+/** \brief Whether area and volume of a piece are known no better than to their own
+ * size: vertices may be off by as much as the piece is large. */
+bool
+isUnsure(const PieceMeasures& piece);
+
+/** \brief Whether a piece is in one plane, as far as float can hold. */
+bool
+isFlat(const SurfaceIntegrals& integrals, const PieceMeasures& piece);
+
+/** \brief The unsure pieces of a surface. */
+struct UnsurePieces {
+  std::size_t pieces = 0, unsure = 0; ///< of the surface, and those that are unsure
+  Measure area{0.0, 0.0};             ///< of the unsure ones together
+  bool are_left_out = false;
+};
+
+/** \brief Warn of unsure pieces. */
+void
+warnOfUnsure(const UnsurePieces& found, Report& report);
+
+/** \brief Warn of surfaces that are open, flat or inverted, and of large errors. */
+void
+warnOfMeasures(const SurfaceFigures& figures, Report& report);
+
+} // namespace pcl_uvol::detail
