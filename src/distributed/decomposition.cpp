@@ -6,6 +6,7 @@
 #include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <limits>
 #include <string>
@@ -49,15 +50,30 @@ CellKey::touches(const CellKey& other) const
 bool
 CellKey::meets(const Ball& ball) const
 {
-  double sq_dist = 0.0;
+  const double radius = ball.radius;
+  if (std::isinf(radius))
+    return true;
+  double lowest[3], highest[3]; // of the part of the cell beside the ball, seen from it
   for (int axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<std::size_t>(axis);
-    const double x = ball.center[axis];
-    const double offset =
-        std::max({low[i].coordinate - x, x - high[i].coordinate, 0.0});
+    const double x = ball.center[axis], reach = radius * ball.extent[i];
+    lowest[axis] = std::max(low[i].coordinate - x, -reach);
+    highest[axis] = std::min(high[i].coordinate - x, reach);
+    if (lowest[axis] > highest[axis])
+      return false;
+  }
+  double sq_dist = 0.0;
+  for (const auto& row : ball.metric) {
+    double least = 0.0, most = 0.0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double at_lowest = row[axis] * lowest[axis],
+                   at_highest = row[axis] * highest[axis];
+      least += std::min(at_lowest, at_highest);
+      most += std::max(at_lowest, at_highest);
+    }
+    const double offset = std::max({least, -most, 0.0});
     sq_dist += offset * offset;
   }
-  const double radius = ball.radius;
   return sq_dist <= radius * radius;
 }
 
@@ -77,8 +93,8 @@ CellKey::contains(const Ball& ball) const
 {
   for (int axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<std::size_t>(axis);
-    const double x = ball.center[axis];
-    if (!(x - ball.radius > low[i].coordinate && x + ball.radius < high[i].coordinate))
+    const double x = ball.center[axis], reach = ball.radius * ball.extent[i];
+    if (!(x - reach > low[i].coordinate && x + reach < high[i].coordinate))
       return false;
   }
   return true;

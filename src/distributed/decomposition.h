@@ -3,6 +3,7 @@
 // the samples into pieces, each of which becomes a subtree of its own.
 #pragma once
 
+#include "neighbors/ball.h"
 #include "neighbors/kd_tree.h"
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/distributed/communicator.h>
@@ -29,12 +30,6 @@ struct PlaneKey {
   Position below;
 };
 
-/** \brief A ball, around an isopoint, say. */
-struct Ball {
-  Position center;
-  float radius;
-};
-
 /** \brief A cell between such planes; infinite coordinates at the border of the domain.
  */
 struct PCL_UVOL_EXPORTS CellKey {
@@ -48,7 +43,8 @@ struct PCL_UVOL_EXPORTS CellKey {
   bool
   touches(const CellKey& other) const;
 
-  /** \brief True if the cell and a ball share a point. */
+  /** \brief True if the cell and a ball share a point; in a metric it may be true where
+   * they only come near each other. */
   bool
   meets(const Ball& ball) const;
 

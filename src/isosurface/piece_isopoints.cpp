@@ -72,7 +72,8 @@ private:
   /** An isopoint whose fit may rest on samples that the piece does not have. */
   struct Pending {
     std::size_t isovalue, index;
-    Ball ball; ///< that is asked for
+    std::vector<Ball> known; ///< all samples in them the piece has, or asks for: the
+                             ///< last one
   };
 
   /** The linear isopoints of one isovalue. */
@@ -85,12 +86,19 @@ private:
 
   /** Fit some of them; those that this does not settle become pending. Linear ones get
    * their support from it, which take() counts.
-   * \param known radii of balls around them all samples of which the piece has */
+   * \param known per isopoint, balls all samples of which the piece has */
   void
   fit(const IsopointInput& input,
       std::size_t isovalue,
       const std::vector<std::size_t>& indices,
-      const std::vector<float>& known);
+      std::vector<std::vector<Ball>>&& known);
+
+  /** Ask for the first of some balls that may hold other samples than the piece has:
+   * what lies in it decides where the next ones are.
+   * \param known balls, which it becomes one of
+   * \return false if there is none */
+  bool
+  askForFirst(const std::vector<Ball>& searched, std::vector<Ball>& known) const;
 
   const Piece& piece_;
   const IsosurfaceParameters& settings_;
@@ -128,7 +136,7 @@ PieceIsopoints::PieceIsopoints(const Piece& piece,
   for (std::size_t i = 0; i < found_.size(); ++i) {
     find(input, i);
     const std::vector<std::size_t> fitted = listFitted(i);
-    fit(input, i, fitted, std::vector<float>(fitted.size(), 0.0f));
+    fit(input, i, fitted, std::vector<std::vector<Ball>>(fitted.size()));
   }
 }
 
@@ -178,11 +186,38 @@ PieceIsopoints::listFitted(std::size_t isovalue) const
   return {all.begin(), last};
 }
 
+bool
+PieceIsopoints::askForFirst(const std::vector<Ball>& searched,
+                            std::vector<Ball>& known) const
+{
+  const auto first =
+      std::find_if(searched.begin(), searched.end(), [&](const Ball& ball) {
+        return !piece_.getCell().contains(ball) &&
+               std::none_of(known.begin(), known.end(), [&](const Ball& other) {
+                 return other.contains(ball);
+               });
+      });
+  if (first == searched.end())
+    return false;
+  Ball asked = *first;
+  const auto smaller = std::find_if(known.begin(), known.end(), [&](const Ball& other) {
+    return asked.isConcentric(other);
+  });
+  if (smaller == known.end())
+    asked.radius *= first_part;
+  else {
+    asked.radius = std::min(asked.radius, 2.0f * smaller->radius);
+    known.erase(smaller);
+  }
+  known.push_back(asked);
+  return true;
+}
+
 void
 PieceIsopoints::fit(const IsopointInput& input,
                     std::size_t isovalue,
                     const std::vector<std::size_t>& indices,
-                    const std::vector<float>& known)
+                    std::vector<std::vector<Ball>>&& known)
 {
   std::vector<PointIso> points;
   IsoEdges edges;
@@ -193,8 +228,13 @@ PieceIsopoints::fit(const IsopointInput& input,
         {piece_.toLocal(isopoint.lower), piece_.toLocal(isopoint.higher), isopoint.t});
   }
   StepTimer step(report_, "smooth_roots", points.size());
-  const auto fits = fitRoots(
-      input, static_cast<float>(settings_.isovalues[isovalue]), edges, points, step);
+  std::vector<std::vector<Ball>> searched;
+  const auto fits = fitRoots(input,
+                             static_cast<float>(settings_.isovalues[isovalue]),
+                             edges,
+                             points,
+                             step,
+                             &searched);
   for (std::size_t i = 0; i < indices.size(); ++i) {
     GlobalIsopoint& isopoint = found_[isovalue][indices[i]];
     if (settings_.interpolation == Interpolation::Linear)
@@ -202,13 +242,13 @@ PieceIsopoints::fit(const IsopointInput& input,
     else
       setResult(isopoint, points[i]);
     isopoint.outcome = static_cast<std::uint8_t>(fits[i].outcome);
-    Ball ball{stretched(isopoint.linear, toPosition(settings_.scale)),
-              fits[i].radius * slack};
-    if (ball.radius <= known[i] || piece_.getCell().contains(ball))
-      continue;
-    ball.radius = known[i] > 0.0f ? std::min(ball.radius, 2.0f * known[i])
-                                  : first_part * fits[i].nearest_radius;
-    pending_.push_back({isovalue, indices[i], ball});
+    const Ball nearest{stretched(isopoint.linear, toPosition(settings_.scale)),
+                       fits[i].radius};
+    searched[i].insert(searched[i].begin(), nearest);
+    for (Ball& ball : searched[i])
+      ball.radius *= slack;
+    if (askForFirst(searched[i], known[i]))
+      pending_.push_back({isovalue, indices[i], std::move(known[i])});
   }
 }
 
@@ -217,14 +257,14 @@ PieceIsopoints::getPendingBalls() const
 {
   std::vector<Ball> balls;
   for (const Pending& one : pending_)
-    balls.push_back(one.ball);
+    balls.push_back(one.known.back());
   return balls;
 }
 
 void
 PieceIsopoints::resolvePending()
 {
-  const std::vector<Pending> pending = std::exchange(pending_, {});
+  std::vector<Pending> pending = std::exchange(pending_, {});
   const NodeRanges none{};
   const TouchingCells candidates(piece_.getSamples());
   const IsopointInput input{piece_.getSamples(),
@@ -237,13 +277,13 @@ PieceIsopoints::resolvePending()
                             threads_};
   for (std::size_t isovalue = 0; isovalue < found_.size(); ++isovalue) {
     std::vector<std::size_t> indices;
-    std::vector<float> known;
-    for (const Pending& one : pending)
+    std::vector<std::vector<Ball>> known;
+    for (Pending& one : pending)
       if (one.isovalue == isovalue) {
         indices.push_back(one.index);
-        known.push_back(one.ball.radius);
+        known.push_back(std::move(one.known));
       }
-    fit(input, isovalue, indices, known);
+    fit(input, isovalue, indices, std::move(known));
   }
 }
 

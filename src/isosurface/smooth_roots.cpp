@@ -76,10 +76,16 @@ public:
   {
   }
 
-  /** Fit consecutive points in the metric of the stretched space, where that serves. */
+  /** Fit consecutive points in the metric of the stretched space, where that serves.
+   * \param searched null, or for each point where is looked */
   void
-  smooth(const IsoEdge* edges, std::size_t count, PointIso* points, RootFit* fits)
+  smooth(const IsoEdge* edges,
+         std::size_t count,
+         PointIso* points,
+         RootFit* fits,
+         std::vector<Ball>* searched)
   {
+    searched_ = searched;
     doubtful_.clear();
     flat_.clear();
     for (std::size_t first = 0; first < count; first += fit_lanes)
@@ -140,8 +146,7 @@ private:
         const float radius = gaps[lane] > 0.0f
                                  ? gaps[lane]
                                  : static_cast<float>(surroundings[lane].radius);
-        fits[i] = {
-            RootOutcome::Far, radius, radius, std::numeric_limits<float>::quiet_NaN()};
+        fits[i] = {RootOutcome::Far, radius, std::numeric_limits<float>::quiet_NaN()};
         keepInGap(edges[i], points[i]);
         doubtful_.push_back({i, centers[lane], 0.0, true, false, false, points[i]});
         continue;
@@ -150,7 +155,6 @@ private:
       const float radius = has_all ? std::numeric_limits<float>::infinity()
                                    : static_cast<float>(surroundings[lane].radius);
       fits[i] = {judge(result, lane, surroundings[lane]),
-                 radius,
                  radius,
                  static_cast<float>(result.value[lane])};
       const bool is_past =
@@ -213,22 +217,18 @@ private:
   /** Find the metric around an edge.
    * \param point has the support Bridged afterwards if it lies in a gap in the metric,
    * or if its edge goes past samples that need none; among stretched ones it is right
-   * \param reach is set to the distance of what decides */
+   */
   Spacings
-  findMetric(const DoubtfulFit& doubtful,
-             const IsoEdge& edge,
-             PointIso& point,
-             double& reach)
+  findMetric(const DoubtfulFit& doubtful, const IsoEdge& edge, PointIso& point)
   {
-    const std::vector<Position>& positions = input_.samples.getPositions();
     const double least_ratio = leastRatio(doubtful);
     const std::uint32_t anchor = group_metrics_.findAnchor(edge.first);
     const bool has_group = group_metrics_.find(anchor, least_ratio);
-    reach = group_metrics_.getReach() + distance(positions[anchor], doubtful.center);
+    noteSearches(doubtful.point, group_metrics_.getSearched());
     if (group_metrics_.hasFailed() || (doubtful.is_in_gap && !has_group))
       return Spacings::Unknown;
     if (has_group && liesInGap(group_metrics_, doubtful.center)) {
-      reach = std::max(reach, nearest_.getReach());
+      noteSearches(doubtful.point, {nearest_.getSearched()});
       if (group_metrics_.getRatio() >= sure_stretching)
         point.support = static_cast<std::uint8_t>(IsoSupport::Bridged);
       return Spacings::Unknown;
@@ -236,8 +236,7 @@ private:
     const bool is_found = has_group
                               ? metrics_.refine(edge.first, group_metrics_, least_ratio)
                               : metrics_.find(edge.first, least_ratio);
-    reach = std::max(
-        reach, metrics_.getReach() + distance(positions[edge.first], doubtful.center));
+    noteSearches(doubtful.point, metrics_.getSearched());
     const bool is_even = !is_found && metrics_.isEven(least_ratio);
     if (doubtful.is_past && is_even)
       point.support = static_cast<std::uint8_t>(IsoSupport::Bridged);
@@ -253,6 +252,13 @@ private:
     return metrics.getPoolSize() > fitted_samples &&
            nearest_.isEmpty(
                center, metrics.getMetric(), wide_gap * metrics.findCrowd(center));
+  }
+
+  void
+  noteSearches(std::size_t point, const std::vector<Ball>& balls)
+  {
+    if (searched_)
+      searched_[point].insert(searched_[point].end(), balls.begin(), balls.end());
   }
 
   /** Fit again in the metrics of the samples around, where these are stretched. */
@@ -275,8 +281,7 @@ private:
         continue;
       const std::size_t i = doubtful[lane].point;
       const Position& center = doubtful[lane].center;
-      double reach = 0.0;
-      const Spacings spacings = findMetric(doubtful[lane], edges[i], points[i], reach);
+      const Spacings spacings = findMetric(doubtful[lane], edges[i], points[i]);
       const bool may_be_on_lines =
           spacings == Spacings::Unknown ||
           (spacings == Spacings::Stretched && metrics_.getRatio() >= sure_stretching);
@@ -289,12 +294,11 @@ private:
         lines[lane] = findLines(metrics_.getSpacings());
         weighted[lane] =
             gatherStretched(metrics_, center, edges[i], lane, surroundings[lane]);
-        reach = std::max(reach, nearest_.getReach());
+        noteSearches(i, {nearest_.getSearched()});
         has_any = true;
       }
       else if (!doubtful[lane].is_in_gap && group_metrics_.hasFailed())
         flat_.push_back(doubtful[lane]);
-      fits[i].radius = std::max(fits[i].radius, static_cast<float>(reach));
     }
     FitResult result;
     if (has_any)
@@ -478,6 +482,7 @@ private:
   LeftOutLines left_out_;
   float isovalue_;
   double last_radius_ = 0.0; ///< of a support found before
+  std::vector<Ball>* searched_ = nullptr;
 };
 
 constexpr std::pair<const char*, RootOutcome> outcome_counts[] = {
@@ -494,16 +499,22 @@ fitRoots(const IsopointInput& input,
          float isovalue,
          const IsoEdges& edges,
          std::vector<PointIso>& points,
-         StepTimer& step)
+         StepTimer& step,
+         std::vector<std::vector<Ball>>* searched)
 {
   std::vector<RootFit> fits(points.size());
+  if (searched)
+    searched->assign(points.size(), {});
   parallelBlocks(points.size(),
                  block_points,
                  input.threads,
                  [&](std::size_t begin, std::size_t end) {
                    RootSmoother smoother(input, isovalue);
-                   smoother.smooth(
-                       &edges[begin], end - begin, &points[begin], &fits[begin]);
+                   smoother.smooth(&edges[begin],
+                                   end - begin,
+                                   &points[begin],
+                                   &fits[begin],
+                                   searched ? &(*searched)[begin] : nullptr);
                    step.advance(end - begin);
                  });
   return fits;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "isosurface/isopoints.h"
+#include "neighbors/ball.h"
 
 #include <cstdint>
 #include <vector>
@@ -16,11 +17,9 @@ enum class RootOutcome : std::uint8_t { Cubic, Quadratic, Singular, Step, Far };
 /** \brief What became of an isopoint. */
 struct RootFit {
   RootOutcome outcome;
-  float radius; ///< of the ball around the linear root that the result depends on, in
-                ///< the stretched space; infinite where samples are few
-  float nearest_radius; ///< of the part of it that the nearest samples lie in: unless
-                        ///< all of it is known, the radius means little
-  float value; ///< at the point as it was given, minus the isovalue, of the fit or of
+  float radius; ///< of the ball around the linear root that the nearest samples lie in,
+                ///< in the stretched space; infinite where samples are few
+  float value;  ///< at the point as it was given, minus the isovalue, of the fit or of
                ///< one that is surer of the sign, whether or not the root serves; where
                ///< that is one of logarithms, theirs; NaN without a fit
 };
@@ -29,13 +28,16 @@ struct RootFit {
  * \param edges of the points, in any order
  * \param points linear isopoints; where a fit does not serve, the point and its outside
  * vector stay
- * \return one per point */
+ * \param searched gets, per point, where else than among the nearest samples was
+ * looked: the result depends on no sample outside, and each of these balls on what is
+ * in those before \return one per point */
 std::vector<RootFit>
 fitRoots(const IsopointInput& input,
          float isovalue,
          const IsoEdges& edges,
          std::vector<PointIso>& points,
-         StepTimer& step);
+         StepTimer& step,
+         std::vector<std::vector<Ball>>* searched = nullptr);
 
 /** \brief Count "cubic_roots", "quadratic_roots", "linear_singular", "linear_step",
  * "linear_far", "bridged" and "rim".

@@ -266,13 +266,15 @@ LocalMetricFinder::lookAround(std::uint32_t sample)
   metric_.setIdentity();
   spacings_.setIdentity();
   ratio_ = infinity;
-  reach_ = 0.0;
+  searched_.clear();
   if (is_flat_)
     return false;
   const auto row = first_finder_.find(samples_.getPositions()[sample],
                                       static_cast<float>(typical_reach_));
   gather(sample, row.samples, row.size);
-  reach_ = typical_reach_ = std::sqrt(nearest_.back().first);
+  typical_reach_ = std::sqrt(nearest_.back().first);
+  searched_.push_back(
+      {samples_.getPositions()[sample], static_cast<float>(typical_reach_)});
   if (stretchAcrossLayer())
     return false;
   const LineMoments lines(offsets_, std::min(central_samples, nearest_.size()));
@@ -312,7 +314,7 @@ LocalMetricFinder::lookInMetric(std::uint32_t sample, double sq_limit, bool may_
 {
   const auto& row = finder_.find(samples_.getPositions()[sample], metric_, sq_limit);
   gather(sample, row.data(), row.size());
-  reach_ = std::max(reach_, finder_.getReach());
+  searched_.push_back(finder_.getSearched());
   if (may_stretch && stretchAcrossLayer())
     return infinity;
   const LineMoments lines(offsets_, std::min(central_samples, nearest_.size()));
@@ -344,7 +346,7 @@ LocalMetricFinder::refine(std::uint32_t sample,
   if (known_ != Known::Refined || sample != last_) {
     last_ = sample;
     metric_ = nearby.metric_;
-    reach_ = nearby.reach_;
+    searched_.clear();
     const double crowd = nearby.findCrowd(samples_.getPositions()[sample]);
     double ratio = lookInMetric(sample, crowd * crowd, false);
     for (int round = 2;

@@ -120,11 +120,13 @@ public:
     return ratio_;
   }
 
-  /** \brief The result depends on no sample farther from this one. */
-  double
-  getReach() const
+  /** \brief Where was looked for it, one after the other: what lies in one decides
+   * where the next one is. The result depends on no sample outside of all; that of
+   * refine() on those of the metric nearby, too. */
+  const std::vector<Ball>&
+  getSearched() const
   {
-    return reach_;
+    return searched_;
   }
 
 private:
@@ -187,7 +189,8 @@ private:
   std::vector<std::pair<double, Eigen::Vector3d>> nearest_;
   std::vector<float> offsets_[3];
   std::vector<std::pair<double, std::uint32_t>> order_;
-  double reach_ = 0.0, ratio_ = 1.0, first_ratio_ = 1.0;
+  std::vector<Ball> searched_;
+  double ratio_ = 1.0, first_ratio_ = 1.0;
   double typical_reach_ = 1.0; ///< of the sample before: where a search starts
 
   /** What is known of the last sample: edges of a group follow one another. What one

@@ -58,8 +58,6 @@ MetricFinder::setMetric(const Eigen::Matrix3d& metric)
   const Eigen::Vector3d sq_extent = inverse.rowwise().squaredNorm();
   for (int axis = 0; axis < 3; ++axis)
     bounds_.per_sq_extent[axis] = 1.0 / sq_extent[axis];
-  // No direction is longer in the metric by more than this norm of its inverse.
-  most_stretched_ = inverse.norm();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> squares(metric.transpose() *
                                                                metric);
   bounds_.rows = toRows(squares.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal() *
@@ -171,7 +169,7 @@ MetricFinder::isEmpty(const Position& point,
   setMetric(metric);
   point_ = point;
   sq_farthest_ = distance * distance;
-  reach_ = distance * most_stretched_;
+  reach_ = distance;
   return visitTrees([&](const KdNode& bucket) {
     std::array<double, KdTree::bucket_samples> sq_dists;
     return measure(&samples_.getPositions()[bucket.begin],
@@ -226,6 +224,17 @@ MetricFinder::search(double sq_limit)
   keepNearest();
 }
 
+Ball
+MetricFinder::getSearched() const
+{
+  Ball ball{point_, static_cast<float>(reach_)};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    ball.extent[axis] = 1.0 / std::sqrt(bounds_.per_sq_extent[axis]);
+    std::copy_n(bounds_.rows.row[axis], 3, ball.metric[axis].begin());
+  }
+  return ball;
+}
+
 const std::vector<std::uint32_t>&
 MetricFinder::find(const Position& point,
                    const Eigen::Matrix3d& metric,
@@ -235,8 +244,7 @@ MetricFinder::find(const Position& point,
   point_ = point;
   if (!has_copy_ || !selectFromCopy())
     search(sq_limit);
-  reach_ = std::sqrt(std::max_element(nearest_.begin(), nearest_.end())->first) *
-           most_stretched_;
+  reach_ = std::sqrt(std::max_element(nearest_.begin(), nearest_.end())->first);
   found_.clear();
   for (const Candidate& candidate : nearest_)
     found_.push_back(candidate.second);

@@ -3,6 +3,7 @@
 // linear image of the space.
 #pragma once
 
+#include "neighbors/ball.h"
 #include "neighbors/metric_kernel.h"
 #include "neighbors/sample_set.h"
 
@@ -46,13 +47,9 @@ public:
   bool
   isEmpty(const Position& point, const Eigen::Matrix3d& metric, double distance);
 
-  /** \brief How far the last call looked: its result depends on no sample farther than
-   * this, as distances are in space. */
-  double
-  getReach() const
-  {
-    return reach_;
-  }
+  /** \brief Where the last call looked: its result depends on no sample outside. */
+  Ball
+  getSearched() const;
 
 private:
   /** A squared distance in the metric from a point, and a sample there. */
@@ -110,11 +107,10 @@ private:
   const MetricKernels* kernels_;
   Position point_{};
   Eigen::Matrix3d metric_;
-  MetricRows rows_;             ///< of it
-  MetricBounds bounds_;         ///< of the same metric
-  double most_stretched_ = 0.0; ///< length in space of what has length 1, at most
+  MetricRows rows_;     ///< of it
+  MetricBounds bounds_; ///< of the same metric
   bool has_metric_ = false;
-  double reach_ = 0.0;
+  double reach_ = 0.0;             ///< of the last call, in the metric
   std::vector<Candidate> nearest_; ///< more than k only on the way
   double sq_farthest_ = 0.0;       ///< what others must not exceed
   std::vector<std::uint32_t> found_;

@@ -14,6 +14,7 @@
 
 namespace {
 
+using pcl_uvol::Ball;
 using pcl_uvol::MetricFinder;
 using pcl_uvol::Position;
 using pcl_uvol::SampleSet;
@@ -72,6 +73,26 @@ offset(const Position& from, const Position& to)
           static_cast<double>(to[2]) - from[2]};
 }
 
+/** Expect samples to lie in a ball, but for rounding. */
+void
+expectIn(const Ball& ball,
+         const SampleSet& samples,
+         const std::vector<std::uint32_t>& found)
+{
+  for (const std::uint32_t i : found) {
+    const Eigen::Vector3d away = offset(ball.center, samples.getPositions()[i]);
+    double sq_length = 0.0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      EXPECT_LE(std::abs(away[static_cast<Eigen::Index>(axis)]),
+                ball.radius * ball.extent[axis] * (1.0 + 1e-6));
+      sq_length += std::pow(
+          away.dot(Eigen::Map<const Eigen::Vector3d>(ball.metric[axis].data())), 2);
+    }
+    EXPECT_LE(std::sqrt(sq_length), ball.radius * (1.0 + 1e-6));
+    EXPECT_LE(away.norm(), ball.getReach() * (1.0 + 1e-6));
+  }
+}
+
 /** Squared distances in the metric, ascending. */
 std::vector<double>
 sqDistances(const SampleSet& samples,
@@ -115,11 +136,7 @@ TEST(MetricFinder, FindsTheNearestOfAllKinds)
               ASSERT_NEAR(expected[j], sq_dists[j], 1e-12 * expected.back())
                   << layout << ' ' << count << ' ' << ratio << ' ' << j;
             EXPECT_TRUE(std::is_sorted(found.begin(), found.end()));
-            double farthest = 0.0;
-            for (const std::uint32_t j : found)
-              farthest =
-                  std::max(farthest, offset(point, samples->getPositions()[j]).norm());
-            EXPECT_LE(farthest, finder.getReach() * (1.0 + 1e-12));
+            expectIn(finder.getSearched(), *samples, found);
           }
     }
 }
@@ -168,7 +185,7 @@ TEST(MetricFinder, FindsTheSameWithACopyInCommon)
               sq_limit,
               (metric * offset(point, samples->getPositions()[j])).squaredNorm());
         EXPECT_EQ(expected, shares.find(point, metric, 3.0 * sq_limit)) << layout;
-        EXPECT_EQ(alone.getReach(), shares.getReach());
+        EXPECT_EQ(alone.getSearched().radius, shares.getSearched().radius);
         EXPECT_EQ(expected, alone.find(point, metric, sq_limit));
       }
     }

@@ -138,6 +138,28 @@ TEST_F(OutOfCore, GivesTheBytesOfMemoryWithLargePieces)
   EXPECT_EQ(2u, report_.getCount("pieces"));
 }
 
+/** Where metrics of the sparse samples reach into the cluster, balls around them would
+ * hold most of it: 150,000 samples, and the bound leaves room for 100,000. */
+TEST_F(OutOfCore, TakesOfAClusterBesideABlockOnlyWhatSearchesLookAt)
+{
+  uvol_test::Random random(5);
+  pcl::PointCloud<pcl::PointXYZI> cloud;
+  for (std::size_t i = 0; i < 450000; ++i) {
+    const double side = i % 3 == 0 ? 15.0 : 100.0;
+    pcl::PointXYZI point;
+    for (int axis = 0; axis < 3; ++axis)
+      point.data[axis] = static_cast<float>(50.0 + side * (random.uniform() - 0.5));
+    point.intensity = std::sin(0.11f * point.x) +
+                      std::cos(0.07f * point.y) * std::sin(0.09f * point.z);
+    cloud.push_back(point);
+  }
+  save(cloud);
+  IsosurfaceParameters settings;
+  settings.field = "intensity";
+  settings.isovalues = {0.3};
+  expectAsInMemory(settings);
+}
+
 TEST_F(OutOfCore, TakesSettingsAndBadPointsAsMemoryDoes)
 {
   auto cloud = uvol_test::makeCloud("uniform", 50000, 8);
