@@ -99,14 +99,26 @@ NaturalNeighborFinder::computeVolumes()
     halves_.push_back(0.5 * offsets_[i].squaredNorm());
     neighbors_[i].weight *= halves_[i]; // area / distance until now
   }
-  for (std::size_t i = 0; i < offsets_.size(); ++i)
+  for (std::size_t i = 0; i < offsets_.size(); ++i) {
+    sortByDistance(i);
     for (std::size_t j = i + 1; j < offsets_.size(); ++j) {
       const double moment = measureBetween(i, j);
       neighbors_[i].weight += moment;
       neighbors_[j].weight -= moment;
     }
+  }
   for (Neighbor& neighbor : neighbors_)
     neighbor.weight = std::max(0.0, neighbor.weight / 3.0);
+}
+
+void
+NaturalNeighborFinder::sortByDistance(std::size_t i)
+{
+  by_distance_.clear();
+  for (std::size_t k = 0; k < offsets_.size(); ++k)
+    if (k != i)
+      by_distance_.emplace_back((offsets_[k] - offsets_[i]).squaredNorm(), k);
+  std::sort(by_distance_.begin(), by_distance_.end());
 }
 
 double
@@ -119,9 +131,12 @@ NaturalNeighborFinder::measureBetween(std::size_t i, std::size_t j)
     return 0.0;
   part_.start(std::sqrt(sq_room));
   plane.cut(part_, offsets_[i], halves_[i], 0.0);
-  for (std::size_t k = 0; k < offsets_.size() && part_.size() > 0; ++k)
-    if (k != i && k != j)
+  for (const auto& [sq_distance, k] : by_distance_) {
+    if (part_.size() == 0)
+      return 0.0;
+    if (k != j)
       plane.cut(part_, offsets_[k] - offsets_[i], halves_[k] - halves_[i], 0.0);
+  }
   return plane.height * part_.computeMoments().area;
 }
 

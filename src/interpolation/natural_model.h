@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace pcl_uvol::detail {
@@ -60,7 +61,14 @@ private:
   void
   computeVolumes();
 
-  /** The area, within the cell, of the face between the cells that two samples had.
+  /** Sort the samples of the other faces by their distance from one: the cells of
+   * nearer samples leave nothing of most faces between two samples, and few of them are
+   * needed to see that. A cell among stretched samples has hundreds of faces. */
+  void
+  sortByDistance(std::size_t i);
+
+  /** The area, within the cell, of the face between the cells that two samples had;
+   * after sortByDistance(i).
    * \return that times the height of its plane over the first one's side */
   double
   measureBetween(std::size_t i, std::size_t j);
@@ -73,6 +81,7 @@ private:
   std::vector<Neighbor> neighbors_;
   std::vector<Eigen::Vector3d> offsets_; ///< of the samples of the faces
   std::vector<double> halves_;           ///< of their squared lengths
+  std::vector<std::pair<double, std::size_t>> by_distance_; ///< from one of them
   ConvexPolygon part_;
 };
 
