@@ -5,8 +5,10 @@
 #pragma once
 
 #include "interpolation/field_model.h"
+#include "interpolation/kriging_model.h"
 #include "interpolation/sample_fits.h"
 
+#include <string>
 #include <vector>
 
 namespace pcl_uvol::detail {
@@ -17,10 +19,17 @@ namespace pcl_uvol::detail {
  *
  * Where these weights fade, as between clusters of different density, those of larger
  * balls fade in. Beyond these the nearest fit is continued along a straight line. The
- * standard error combines those of the fits and the spread of their values. */
+ * standard error combines those of the fits and the spread of their values.
+ *
+ * Where that error is a larger part of what values differ by over the distance of the
+ * fits than in fields that samples resolve, the answer is that of kriging. */
 class BlendedFits : public FieldModel {
 public:
-  BlendedFits(const SampledFields& sampled, unsigned threads);
+  /** \param frames,names of the fields, see KrigingModel */
+  BlendedFits(const SampledFields& sampled,
+              const std::vector<ValueFrame>& frames,
+              const std::vector<std::string>& names,
+              unsigned threads);
 
   void
   evaluate(const Query* queries,
@@ -34,6 +43,7 @@ private:
   const SampledFields& sampled_;
   std::vector<Position> sparse_;
   SampleFits fits_;
+  KrigingModel kriging_;
 };
 
 } // namespace pcl_uvol::detail

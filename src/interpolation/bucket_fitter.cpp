@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace pcl_uvol::detail {
 
@@ -33,10 +34,14 @@ constexpr double clear_pivot = 0.02;
 
 } // namespace
 
-BucketFitter::BucketFitter(const SampledFields& sampled, bool is_calm)
+BucketFitter::BucketFitter(const SampledFields& sampled,
+                           bool is_calm,
+                           const SampleMetrics* metrics)
     : sampled_(sampled)
     , is_calm_(is_calm)
+    , metrics_(metrics)
     , finder_(*sampled.samples, fitted_samples + 1)
+    , stretched_finder_(*sampled.samples, fitted_samples + 1, true)
     , kernel_(kernels.get())
     , samples_(most_neighbors)
     , values_(sampled.fields * most_neighbors)
@@ -57,6 +62,7 @@ BucketFitter::fit(std::uint32_t begin, std::uint32_t count)
       fits.center[axis][i] = centers[i][axis];
   }
   fits.sq_reach.resize(count + ball_padding);
+  fits.metric.resize(count);
   fits.is_inner.resize(count);
   fits.is_reduced.resize(count);
   fits.coefficients.resize(count * fields * polynomial_terms);
@@ -126,42 +132,70 @@ BucketFitter::gather(std::uint32_t sample,
                      std::size_t place,
                      BucketFits& fits)
 {
-  const std::vector<Position>& positions = sampled_.samples->getPositions();
-  const Position& center = positions[sample];
-  const auto near = finder_.find(center, length_);
-  const Query query{{center[0], center[1], center[2]}};
-  sq_dists_.clear();
-  for (std::size_t j = 0; j < near.size; ++j)
-    sq_dists_.push_back(sqDistance(query, positions[near.samples[j]]));
+  fits.metric[place] = metrics_ ? metrics_->find(sample) : nullptr;
+  findNeighbors(sample, fits.metric[place]);
   const double farthest =
       std::sqrt(*std::max_element(sq_dists_.begin(), sq_dists_.end()));
-  const bool are_all = near.size <= fitted_samples;
+  const bool are_all = near_.size() <= fitted_samples;
   const double radius =
       farthest > 0.0 ? (are_all ? radius_of_few : 1.0) * farthest : 1.0;
-  length_ = static_cast<float>(radius);
-  for (std::size_t j = 0; j < near.size; ++j) {
-    const Position& neighbor = positions[near.samples[j]];
-    samples_[j].x[lane] = (static_cast<double>(neighbor[0]) - query.x[0]) / radius;
-    samples_[j].y[lane] = (static_cast<double>(neighbor[1]) - query.x[1]) / radius;
-    samples_[j].z[lane] = (static_cast<double>(neighbor[2]) - query.x[2]) / radius;
+  for (std::size_t j = 0; j < near_.size(); ++j) {
+    samples_[j].x[lane] = offsets_[j][0] / radius;
+    samples_[j].y[lane] = offsets_[j][1] / radius;
+    samples_[j].z[lane] = offsets_[j][2] / radius;
     for (std::size_t f = 0; f < sampled_.fields; ++f)
       values_[f * most_neighbors + j].value[lane] =
-          sampled_.valuesOf(near.samples[j])[f] - sampled_.valuesOf(sample)[f];
+          sampled_.valuesOf(near_[j])[f] - sampled_.valuesOf(sample)[f];
   }
   weighted_[lane] = static_cast<int>(
       std::count_if(sq_dists_.begin(), sq_dists_.end(), [&](double sq_dist) {
         return sq_dist < radius * radius;
       }));
   fits.radius[place] = radius;
-  fits.is_inner[place] = isInner(lane, near.size);
+  fits.is_inner[place] = isInner(lane, near_.size());
   // The sample itself is the nearest.
-  if (near.size > blended_samples) {
+  if (near_.size() > blended_samples) {
     std::nth_element(
         sq_dists_.begin(), sq_dists_.begin() + blended_samples, sq_dists_.end());
     fits.sq_reach[place] = sq_dists_[blended_samples];
   }
   else
     fits.sq_reach[place] = radius * radius;
+}
+
+void
+BucketFitter::findNeighbors(std::uint32_t sample, const StretchedMetric* metric)
+{
+  const std::vector<Position>& positions = sampled_.samples->getPositions();
+  const Position& center = positions[sample];
+  if (!metric) {
+    const auto near = finder_.find(center, length_);
+    near_.assign(near.samples, near.samples + near.size);
+  }
+  else {
+    // The neighbours of the sample before are as many, within a distance that is known.
+    double sq_limit = std::numeric_limits<double>::infinity();
+    if (near_.size() > fitted_samples) {
+      sq_limit = 0.0;
+      for (const std::uint32_t near : near_)
+        sq_limit =
+            std::max(sq_limit, offsetIn(metric, center, positions[near]).squaredNorm());
+    }
+    near_ = stretched_finder_.find(center, metric->matrix, sq_limit);
+  }
+  offsets_.clear();
+  sq_dists_.clear();
+  for (const std::uint32_t near : near_) {
+    offsets_.push_back(offsetIn(metric, center, positions[near]));
+    const Eigen::Vector3d& offset = offsets_.back();
+    sq_dists_.push_back(offset[0] * offset[0] + offset[1] * offset[1] +
+                        offset[2] * offset[2]);
+  }
+  if (!metric)
+    length_ = static_cast<float>(
+        std::sqrt(*std::max_element(sq_dists_.begin(), sq_dists_.end())));
+  if (!(length_ > 0.0f))
+    length_ = 1.0f;
 }
 
 bool

@@ -6,7 +6,9 @@
 #include "derivatives/polynomial_kernel.h"
 #include "interpolation/field_model.h"
 #include "interpolation/sample_fits.h"
+#include "interpolation/sample_metrics.h"
 #include "neighbors/empty_cone.h"
+#include "neighbors/metric_finder.h"
 #include "neighbors/nearest_finder.h"
 
 #include <Eigen/Core>
@@ -29,8 +31,11 @@ public:
   /** \param is_calm fit anew where polynomials run away: steep along a direction in
    * which samples lie on too few layers for their degree. Of the degrees whose terms
    * the samples determine well the best is taken, a linear function at least. Values
-   * hardly depend on it, derivatives do. */
-  explicit BucketFitter(const SampledFields& sampled, bool is_calm = false);
+   * hardly depend on it, derivatives do.
+   * \param metrics that neighbours and fits are those of; null: of space */
+  explicit BucketFitter(const SampledFields& sampled,
+                        bool is_calm = false,
+                        const SampleMetrics* metrics = nullptr);
 
   BucketFits
   fit(std::uint32_t begin, std::uint32_t count);
@@ -41,6 +46,11 @@ private:
 
   void
   gather(std::uint32_t sample, std::size_t lane, std::size_t place, BucketFits& fits);
+
+  /** Find the neighbours of a sample, itself one of them, and their offsets, in its
+   * metric. */
+  void
+  findNeighbors(std::uint32_t sample, const StretchedMetric* metric);
 
   void
   clear(std::size_t lane, std::size_t from);
@@ -65,13 +75,17 @@ private:
   alignas(64) float directions_[3][64];
   const SampledFields& sampled_;
   bool is_calm_;
+  const SampleMetrics* metrics_;
   NearestFinder finder_;
+  MetricFinder stretched_finder_;
   EmptyCone cone_;
   PolynomialKernel kernel_;
   std::vector<PolynomialSample> samples_; ///< [neighbour]
   std::vector<LaneValues> values_;        ///< [field][neighbour]
   std::vector<PolynomialFit> results_;
-  std::vector<double> sq_dists_;
+  std::vector<std::uint32_t> near_;
+  std::vector<Eigen::Vector3d> offsets_; ///< of these
+  std::vector<double> sq_dists_;         ///< of these
   int weighted_[polynomial_lanes] = {};
   float length_ = 1.0f; ///< of the search before
 };

@@ -59,7 +59,7 @@ makeModel(const SampledFields& sampled,
         threads,
         report);
   default:
-    return std::make_unique<BlendedFits>(sampled, threads);
+    return std::make_unique<BlendedFits>(sampled, frames, names, threads);
   }
 }
 

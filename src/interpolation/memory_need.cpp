@@ -34,12 +34,13 @@ fittedSamples(double samples, QueryShape shape)
 double
 modelBytes(double samples, double fields, InterpolationModel model, QueryShape shape)
 {
-  const double fit_bytes = 36.0 + 168.0 * fields; // see BucketFits
+  const double fit_bytes = 44.0 + 168.0 * fields; // see BucketFits
+  const double metric_bytes = index_bytes;        // see SampleMetrics
   switch (model) {
   case InterpolationModel::Fit:
-    return fit_bytes * fittedSamples(samples, shape);
+    return fit_bytes * fittedSamples(samples, shape) + metric_bytes * samples;
   case InterpolationModel::Auto: // which makes fits all over the samples
-    return fit_bytes * samples;
+    return (fit_bytes + metric_bytes) * samples;
   case InterpolationModel::Sph:
     return 4.0 * number_bytes * samples;
   default:

@@ -40,6 +40,7 @@ PolynomialSum::add(const Part& part)
                           part.offset.data(),
                           values_.data(),
                           gradient_sums_.empty() ? nullptr : gradients_.data());
+  leaveMetric(part);
   addValues(part);
   for (std::size_t axis = 0; axis < 3; ++axis)
     weight_gradient_[axis] += part.weight_gradient[axis];
@@ -64,7 +65,19 @@ PolynomialSum::addStraight(const Part& part, double farthest)
   for (std::size_t f = 0; f < fields_; ++f)
     for (std::size_t axis = 0; axis < 3; ++axis)
       values_[f] += gradients_[3 * f + axis] * (part.offset[axis] - end[axis]);
+  leaveMetric(part);
   addValues(part);
+}
+
+void
+PolynomialSum::leaveMetric(const Part& part)
+{
+  if (!part.polynomial.metric || gradient_sums_.empty())
+    return;
+  for (std::size_t f = 0; f < fields_; ++f) {
+    Eigen::Map<Eigen::Vector3d> gradient(&gradients_[3 * f]);
+    gradient = (part.polynomial.metric->matrix.transpose() * gradient).eval();
+  }
 }
 
 void
@@ -92,6 +105,14 @@ PolynomialSum::addValues(const Part& part)
   }
 }
 
+double
+PolynomialSum::computeError(std::size_t field) const
+{
+  const double mean = value_sums_[field] / weight_;
+  return std::sqrt(sq_error_sums_[field] / weight_ +
+                   std::max(0.0, square_sums_[field] / weight_ - mean * mean));
+}
+
 void
 PolynomialSum::finish(std::size_t query, const Estimates& estimates) const
 {
@@ -100,9 +121,7 @@ PolynomialSum::finish(std::size_t query, const Estimates& estimates) const
     const double mean = value_sums_[f] / weight_;
     estimates.values[place] = references_[f] + mean;
     if (estimates.errors)
-      estimates.errors[place] =
-          std::sqrt(sq_error_sums_[f] / weight_ +
-                    std::max(0.0, square_sums_[f] / weight_ - mean * mean));
+      estimates.errors[place] = computeError(f);
     if (!gradient_sums_.empty())
       for (std::size_t axis = 0; axis < 3; ++axis)
         estimates.gradients[3 * place + axis] =

@@ -4,6 +4,7 @@
 
 #include "interpolation/blend_kernel.h"
 #include "interpolation/field_model.h"
+#include "interpolation/sample_metrics.h"
 
 #include <array>
 #include <cstddef>
@@ -16,16 +17,17 @@ class PolynomialSum {
 public:
   /** \brief One of every field. */
   struct Polynomial {
-    const double* coefficients; ///< [field][term], see PolynomialFit
-    const double* errors;       ///< [field]
-    double radius;              ///< their unit
+    const double* coefficients;    ///< [field][term], see PolynomialFit
+    const double* errors;          ///< [field]
+    double radius;                 ///< their unit, in the metric
+    const StretchedMetric* metric; ///< of their coordinates; null: that of space
   };
 
   /** \brief What is added. */
   struct Part {
     Polynomial polynomial;
     double weight;
-    std::array<double, 3> offset; ///< from the centre, in units of the radius
+    std::array<double, 3> offset; ///< from the centre, in the metric, in radii
     std::array<double, 3> weight_gradient;
   };
 
@@ -54,12 +56,20 @@ public:
     return weight_gradient_;
   }
 
+  /** \brief The error of the mean of a field, see finish(). */
+  double
+  computeError(std::size_t field) const;
+
   /** \brief Store the mean, its gradient, and its error: the mean of the squared errors
    * and the spread of the values. */
   void
   finish(std::size_t query, const Estimates& estimates) const;
 
 private:
+  /** Turn gradients in the metric of a part into those in space. */
+  void
+  leaveMetric(const Part& part);
+
   /** Add the values and gradients of a part. */
   void
   addValues(const Part& part);

@@ -13,10 +13,25 @@ namespace {
 /** Room for the rounding of distances. */
 constexpr double slack = 1.0001;
 
+} // namespace
+
+SampleFits::SampleFits(const SampledFields& sampled, unsigned threads)
+    : sampled_(sampled)
+    , metrics_(*sampled.samples, threads)
+    , balls_(
+          *sampled.samples,
+          [this](const BallTree::Bucket& bucket) { return boundByBox(bucket); },
+          threads,
+          [this](const BallTree::Bucket& bucket) { return boundReach(bucket); })
+    , fits_(balls_.getBuckets().size())
+    , once_(balls_.getBuckets().size())
+{
+}
+
 /** No sample of a bucket is farther from another one; where they are few in all, fits
  * reach farther than their only bucket. */
 double
-boundByBox(const BallTree::Bucket& bucket)
+SampleFits::boundByBox(const BallTree::Bucket& bucket) const
 {
   double sq_extent = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -24,23 +39,14 @@ boundByBox(const BallTree::Bucket& bucket)
         static_cast<double>(bucket.box.high[axis]) - bucket.box.low[axis];
     sq_extent += extent * extent;
   }
-  const double diagonal = std::sqrt(sq_extent);
+  double ratio = 1.0;
+  for (std::uint32_t i = bucket.begin; i < bucket.begin + bucket.count; ++i)
+    if (const StretchedMetric* const metric = metrics_.find(i))
+      ratio = std::max(ratio, metric->ratio);
+  const double diagonal = ratio * std::sqrt(sq_extent);
   return slack * (bucket.count <= BucketFitter::blended_samples
                       ? std::max(1.0, 2.0 * diagonal)
                       : diagonal);
-}
-
-} // namespace
-
-SampleFits::SampleFits(const SampledFields& sampled, unsigned threads)
-    : sampled_(sampled)
-    , balls_(*sampled.samples,
-             boundByBox,
-             threads,
-             [this](const BallTree::Bucket& bucket) { return boundReach(bucket); })
-    , fits_(balls_.getBuckets().size())
-    , once_(balls_.getBuckets().size())
-{
 }
 
 double
@@ -54,9 +60,10 @@ SampleFits::boundReach(const BallTree::Bucket& bucket) const
   double sq_reach = 0.0;
   std::vector<double> sq_dists(bucket.count);
   for (std::uint32_t i = bucket.begin; i < bucket.begin + bucket.count; ++i) {
-    const Query center{{positions[i][0], positions[i][1], positions[i][2]}};
+    const StretchedMetric* const metric = metrics_.find(i);
     for (std::uint32_t j = 0; j < bucket.count; ++j)
-      sq_dists[j] = sqDistance(center, positions[bucket.begin + j]);
+      sq_dists[j] =
+          offsetIn(metric, positions[i], positions[bucket.begin + j]).squaredNorm();
     std::nth_element(sq_dists.begin(), sq_dists.begin() + blended, sq_dists.end());
     sq_reach = std::max(sq_reach, sq_dists[blended]);
   }
@@ -67,7 +74,7 @@ const BucketFits&
 SampleFits::getFits(std::size_t bucket) const
 {
   std::call_once(once_[bucket], [&] {
-    BucketFitter fitter(sampled_);
+    BucketFitter fitter(sampled_, true, &metrics_);
     fits_[bucket] = std::make_unique<const BucketFits>(fitter.fit(
         balls_.getBuckets()[bucket].begin, balls_.getBuckets()[bucket].count));
   });

@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Local polynomials as a partition of unity: exact for what they are, smooth, of the
 // order that they have, and sure of as much as they know.
+#include "common/scalar_field.h"
 #include "support/clouds.h"
 #include "support/environment.h"
 #include "support/interpolation_cases.h"
+#include "support/stretched_samples.h"
+#include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/io/dataset.h>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace {
 
@@ -175,6 +181,148 @@ TEST(BlendedFits, StepsRingALittle)
     EXPECT_GT(value, -0.5);
     EXPECT_LT(value, 1.5);
   }
+}
+
+/** Errors at random positions of the index space, in standard deviations. */
+std::vector<double>
+errorsBetweenNodes(const std::string& shape, double ratio, bool are_gradients_checked)
+{
+  constexpr int side = 20;
+  const auto stretched = makeStretchedSamples(shape, ratio, side);
+  const Function waves = [&](const Vector3d& x) {
+    const Vector3d u = stretched.to_index(x);
+    return std::sin(0.5 * u[0]) + std::cos(0.4 * u[1] - 0.3 * u[2]);
+  };
+  const auto lattice = stretched.sample(makeSmoothField("radial", 8000), side, 1);
+  Places at, places;
+  for (const auto& point : *lattice)
+    at.push_back({point.x, point.y, point.z});
+  Random random(5);
+  for (int i = 0; i < 1000; ++i) {
+    Vector3d u;
+    for (double& x : u)
+      x = (random.uniform() - 0.5) * (side - 5);
+    const Vector3d x = stretched.to_space(u);
+    places.push_back({x[0], x[1], x[2]});
+  }
+  const auto result = interpolate(sampleFunctions(at, {waves}), {}, places);
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Vector3d x = vectorOf(places[i]);
+    EXPECT_FALSE(std::isnan(result.getValue(0, i))) << shape << " " << ratio;
+    errors.push_back(std::abs(result.getValue(0, i) - waves(x)));
+    if (are_gradients_checked) {
+      const Vector3d slope = gradientOf(waves, x);
+      EXPECT_LT((vectorOf(result.getGradient(0, i)) - slope).norm(),
+                0.1 + 0.1 * slope.norm());
+    }
+  }
+  return errors;
+}
+
+/** Values between the nodes of stretched cells are as good as those between the nodes
+ * of cubes: fits use the metric of the samples around. */
+TEST(BlendedFits, FitsStretchedCellsInTheirMetric)
+{
+  const double of_cubes = quantile(errorsBetweenNodes("lattice", 1.0, true), 0.95);
+  EXPECT_LT(of_cubes, 0.02);
+  for (const double ratio : {3.0, 10.0, 30.0})
+    EXPECT_LT(quantile(errorsBetweenNodes("lattice", ratio, false), 0.95),
+              1.5 * of_cubes)
+        << ratio;
+  EXPECT_LT(quantile(errorsBetweenNodes("rotated", 10.0, false), 0.95), 3.0 * of_cubes);
+  EXPECT_LT(quantile(errorsBetweenNodes("wall", 10.0, false), 0.95), 3.0 * of_cubes);
+  EXPECT_LT(quantile(errorsBetweenNodes("curved", 10.0, false), 0.95), 3.0 * of_cubes);
+}
+
+/** A field that samples do not resolve, on vertical lines: no value leaves the range of
+ * the samples, and errors show that. */
+TEST(BlendedFits, DoesNotSwingBetweenLines)
+{
+  Places at;
+  Random random(11);
+  for (int line = 0; line < 40; ++line) {
+    const double x = random.uniform(), y = random.uniform();
+    for (int i = 0; i < 60; ++i)
+      at.push_back({static_cast<float>(x), static_cast<float>(y), i / 64.0});
+  }
+  const Function rough = [](const Vector3d& x) {
+    return std::sin(91.0 * x[0] + 57.0 * x[1]) + 0.5 * std::sin(300.0 * x[2] * x[0]);
+  };
+  InterpolationParameters parameters;
+  parameters.extrapolate = true;
+  const Places places = randomPlaces(2000, 12, 0.05, 0.9);
+  const auto result = interpolate(sampleFunctions(at, {rough}), parameters, places);
+  std::size_t covered = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    EXPECT_LT(std::abs(result.getValue(0, i)), 2.0);
+    covered += std::abs(result.getValue(0, i) - rough(vectorOf(places[i]))) <=
+               result.getError(0, i);
+  }
+  EXPECT_GE(covered, places.size() * 6 / 10);
+}
+
+/** Real cells around a fin, up to 1 : 1000: trilinear values in random cells. */
+TEST(BlendedFits, ValuesInCellsOfBluntFin)
+{
+  if (dataFolder().empty())
+    GTEST_SKIP() << "no real data";
+  const auto fin = loadDataset(dataFolder() + "/cfd/bluntfin.vts");
+  const CloudView cloud = viewOf(fin.cloud);
+  constexpr std::size_t dims[] = {40, 32, 32};
+  ASSERT_EQ(cloud.count, dims[0] * dims[1] * dims[2]);
+  InterpolationParameters parameters;
+  parameters.fields = {"Density"};
+  pcl::Indices all(cloud.count);
+  std::iota(all.begin(), all.end(), 0);
+  Report report;
+  const detail::FieldInterpolator nodes(cloud, all, parameters, 0, report);
+  const ScalarField density(cloud.fields, "Density");
+  Random random(1);
+  Places places;
+  std::vector<double> truth;
+  for (int i = 0; i < 3000; ++i) {
+    std::size_t cell[3];
+    double part[3];
+    for (int axis = 0; axis < 3; ++axis) {
+      const double along = random.uniform() * static_cast<double>(dims[axis] - 1);
+      cell[axis] = static_cast<std::size_t>(along);
+      part[axis] = along - static_cast<double>(cell[axis]);
+    }
+    std::array<double, 3> place{};
+    double value = 0.0;
+    for (std::size_t corner = 0; corner < 8; ++corner) {
+      std::size_t at[3];
+      double weight = 1.0;
+      for (int axis = 0; axis < 3; ++axis) {
+        const std::size_t side = corner >> axis & 1u;
+        at[axis] = cell[axis] + side;
+        weight *= side ? part[axis] : 1.0 - part[axis];
+      }
+      const std::size_t node = (at[2] * dims[1] + at[1]) * dims[0] + at[0];
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        place[axis] += weight * static_cast<double>(cloud.xyz(node)[axis]);
+      value += weight * density.read(cloud.point(node));
+    }
+    places.push_back(place);
+    truth.push_back(value);
+  }
+  const auto result = nodes.interpolate(places, 0, report);
+  double mean = 0.0, variance = 0.0, squares = 0.0;
+  std::vector<double> errors;
+  for (const double value : truth)
+    mean += value / static_cast<double>(truth.size());
+  for (const double value : truth)
+    variance += (value - mean) * (value - mean) / static_cast<double>(truth.size());
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (!std::isnan(result.getValue(0, i))) {
+      errors.push_back(std::abs(result.getValue(0, i) - truth[i]) /
+                       std::sqrt(variance));
+      squares += errors.back() * errors.back();
+    }
+  EXPECT_GT(errors.size(), 2000u);
+  EXPECT_LT(std::sqrt(squares / static_cast<double>(errors.size())), 0.06);
+  EXPECT_LT(quantile(errors, 0.95), 0.1);
 }
 
 } // namespace
