@@ -81,7 +81,7 @@ class Interpolator:
         As those of `isosurface`; of several fields "auto" goes by the first one.
     kriging, sph, shepard : dict, optional
         Parameters of these models, by the library's names: `kriging={"variogram":
-        "gaussian", "nugget": 0.1}`.
+        "gaussian", "nugget": 0.1}`; "sill" is the partial sill, without the nugget.
     periodic : sequence of 3 floats, or "header", optional
         As that of `isosurface`: places may lie in any of the boxes.
     threads : int
@@ -166,9 +166,10 @@ class Interpolator:
 
     @property
     def variograms(self):
-        """dict: of kriging, by field: kind, nugget, sill and range, and what they were
-        fitted to: half the mean squares of differences (values) of so many pairs of
-        samples, by distance. Empty with other models.
+        """dict: of kriging, by field: kind, nugget, sill (the partial sill: without the
+        nugget) and range, and what they were fitted to: half the mean squares of
+        differences (values) of so many pairs of samples, by distance. Empty with other
+        models.
 
         Examples
         --------

@@ -22,7 +22,7 @@ struct SampledFields;
 struct PCL_UVOL_EXPORTS Variogram {
   VariogramKind kind = VariogramKind::Spherical;
   double nugget = 0.0; ///< of values that differ however close their samples are
-  double sill = 0.0;   ///< without the nugget
+  double sill = 0.0;   ///< the partial sill: without the nugget
   double range = 1.0;
 
   /** \brief The value of the part without the nugget.

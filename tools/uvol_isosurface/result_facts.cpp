@@ -98,7 +98,7 @@ describeGaps(const pcl_uvol::GapFilling& gaps)
   else
     text << gaps.predicted << " samples predicted, " << gaps.spacing
          << " apart, up to the range " << gaps.range
-         << " of a spherical variogram (nugget " << gaps.nugget << ", sill "
+         << " of a spherical variogram (nugget " << gaps.nugget << ", partial sill "
          << gaps.sill << ")";
   const std::vector<Fact> members{{"predicted", static_cast<double>(gaps.predicted)},
                                   {"spacing", gaps.spacing},

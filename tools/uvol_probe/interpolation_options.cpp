@@ -49,11 +49,13 @@ InterpolationOptions::declare(Options& options)
                "sph the one at which a kernel ends (48)")
       .rare();
   options
-      .text("variogram",
-            "kind[,nugget,sill,range]",
-            variogram_,
-            "of kriging: spherical, exponential, gaussian, matern32 or matern52 "
-            "(default spherical, fitted to the samples)")
+      .text(
+          "variogram",
+          "kind[,nugget,psill,range]",
+          variogram_,
+          "of kriging: spherical, exponential, gaussian, matern32 or matern52; nugget, "
+          "partial sill (sill less nugget) and range (default spherical, fitted to the "
+          "samples)")
       .rare();
   options
       .integer("trend",

@@ -83,8 +83,8 @@ describe(const Variogram& model)
 {
   FactText text;
   text.precision(4);
-  text << toWord(model.kind) << ", nugget " << model.nugget << ", sill " << model.sill
-       << ", range " << model.range;
+  text << toWord(model.kind) << ", nugget " << model.nugget << ", partial sill "
+       << model.sill << ", range " << model.range;
   return text.str();
 }
 

@@ -42,7 +42,8 @@ public:
   /** \brief Write table and picture of the first field, as far as they are asked for.
    * \param is_stretched whether distances are those of a stretched space
    * \throws InvalidArgument if one is asked for of a field that is constant
-   * \return kind, nugget, sill and range of every field; none of other models */
+   * \return kind, nugget, partial sill and range of every field; none of other models
+   */
   Facts
   write(const pcl_uvol::detail::FieldInterpolator& interpolator,
         bool is_stretched) const;

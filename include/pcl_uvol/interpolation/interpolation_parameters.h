@@ -86,9 +86,9 @@ listWords(VariogramKind)
 /** \brief Parameters of InterpolationModel::Kriging. */
 struct PCL_UVOL_EXPORTS KrigingParameters {
   VariogramKind variogram = VariogramKind::Spherical;
-  /** Nugget and sill (without the nugget) in squared units of the field, >= 0, and
-   * range in units of length, > 0; NaN (default): fitted to the samples, for every
-   * field. @{ */
+  /** Nugget and partial sill (the sill without the nugget) in squared units of the
+   * field, >= 0, and range in units of length, > 0; NaN (default): fitted to the
+   * samples, for every field. @{ */
   double nugget = std::numeric_limits<double>::quiet_NaN();
   double sill = std::numeric_limits<double>::quiet_NaN();
   double range = std::numeric_limits<double>::quiet_NaN();

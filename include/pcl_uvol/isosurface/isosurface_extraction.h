@@ -43,8 +43,10 @@ listWords(Outside)
 /** \brief How isopoints are found between two samples. */
 enum class Interpolation {
   Linear, ///< thesis 2.4: along the edge, normal along the edge
-  Fit,    ///< the zero level of a local cubic or quadratic fit (default)
-  Auto ///< IsosurfacePipeline decides for each isopoint, its default; as Fit elsewhere
+  Fit,    ///< the zero level of a local cubic or quadratic fit: the default of
+          ///< IsosurfaceExtraction
+  Auto ///< Fit or Linear, chosen for each isopoint: the default of IsosurfacePipeline,
+       ///< of the tools and of Python; IsosurfaceExtraction takes Fit instead
 };
 
 /** \return The words for its values in JSON and options. */

@@ -216,8 +216,8 @@ struct PCL_UVOL_EXPORTS LevelSetParameters {
   /** Weight of the data against smoothness, in [0, 1]: 1 follows the data, 0 only
    * smooths. None, from the values: smaller and smaller weights one after another, as
    * long as the expected deviation from the true surface falls (Stein's unbiased risk
-   * estimate), and no smoothing at all where it would not fall by a tenth. None, from
-   * another start: the last of these weights. */
+   * estimate of its mean square), and no smoothing at all unless the mean square falls
+   * by a quarter. None, from another start: the last of these weights. */
   std::optional<double> mu;
   FitScheme scheme = FitScheme::Quadratic;
   CurvatureFlow flow = CurvatureFlow::Relative;

@@ -264,8 +264,8 @@ struct ValidationScore {
  * Isopoints that rest on them have IsoSupport::Predicted; their `error` is the standard
  * deviation of the kriging over the slope of the kriged field, and `confidence` the
  * part of the field's variance that the samples explain there: 1 - deviation^2 /
- * (nugget + sill), 1 for all other isopoints. Where they explain nothing of it a
- * prediction is no better than a mean of all samples: with Interpolation::Auto,
+ * (nugget + partial sill), 1 for all other isopoints. Where they explain nothing of it
+ * a prediction is no better than a mean of all samples: with Interpolation::Auto,
  * isopoints of confidence 0 are left out. */
 struct GapFilling {
   std::size_t predicted = 0; ///< samples; 0: there was no gap, or it was not filled
@@ -274,7 +274,9 @@ struct GapFilling {
   /** The range of the spherical variogram; no predicted sample is farther from a
    * measured one. */
   double range = 0.0;
-  double nugget = 0.0, sill = 0.0; ///< of the variogram, in squared units of the field
+  /** Nugget and partial sill (the sill without the nugget) of the variogram, in squared
+   * units of the field. */
+  double nugget = 0.0, sill = 0.0;
   /** The index of the measured sample next to each predicted one, which has the other
    * fields of it. */
   std::vector<std::uint32_t> sources;
