@@ -155,8 +155,10 @@ run(int argc, char** argv)
     save.ascii = ascii;
     if (a.triangles.empty())
       uvol_tools::savePoints(output, a.vertices, save, report);
-    else
+    else {
       pcl_uvol::saveMesh(output, a.vertices, a.triangles, save);
+      uvol_tools::warnOfLosses(output, a.vertices, report);
+    }
   }
   uvol_tools::printReport(options, report, facts);
   return 0;

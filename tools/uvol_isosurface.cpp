@@ -63,7 +63,7 @@ saveMesh(const std::string& path,
         "are relative to " +
         joined(std::vector<double>(origin.begin(), origin.end())) + ".");
   pcl_uvol::saveMesh(path, result.surface, result.triangles, options);
-  uvol_tools::warnOfLabels(path, result.surface, report);
+  uvol_tools::warnOfLosses(path, result.surface, report);
 }
 
 /** A run on its way to its report. */

@@ -137,7 +137,7 @@ save(const Arguments& arguments,
     options.comments = {"isosurface of " + field + " at " +
                         joined(arguments.parameters.isosurface.isovalues)};
     pcl_uvol::saveDataset(arguments.output, output, options);
-    uvol_tools::warnOfLabels(arguments.output, output, report);
+    uvol_tools::warnOfLosses(arguments.output, output, report);
   }
   communicator.barrier();
 }

@@ -5,7 +5,7 @@ import os
 
 import numpy as np
 
-from . import _arrays, _parameters
+from . import _arrays, _parameters, _report
 from ._bridges import Bridges
 from ._errors import FieldError
 from ._progress import listening
@@ -191,7 +191,8 @@ class Points(Bridges):
     def _save(self, path, triangles, ascii, progress):
         from . import _io
         with listening(progress) as listener:
-            _io.write(os.fsencode(path), self._dataset, triangles, _parameters.flag(ascii, "ascii"), self._comments(), listener)
+            losses = _io.write(os.fsencode(path), self._dataset, triangles, _parameters.flag(ascii, "ascii"), self._comments(), listener)
+        _report.tell(losses)
 
     def _comments(self):
         """Lines for files that have comments."""

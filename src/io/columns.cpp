@@ -17,6 +17,25 @@ namespace {
 
 using Type = pcl::PCLPointField;
 
+bool
+isWidened(const Column& column)
+{
+  return column.stored != column.datatype;
+}
+
+/** The datatype in the point of a field in the file: packed colours may be other bits
+ * there, but only numbers become a float64. */
+std::uint8_t
+storedType(const Dataset& dataset, const pcl::PCLPointField& field)
+{
+  if (field.datatype != Type::FLOAT64)
+    return field.datatype;
+  for (const auto& stored : dataset.cloud.fields)
+    if (stored.offset == field.offset && !isPadding(stored))
+      return stored.datatype;
+  return field.datatype;
+}
+
 /** Puts the numbers of a point one behind the other. */
 class RecordPacker {
 public:
@@ -41,7 +60,8 @@ public:
 
 private:
   struct Widened {
-    std::size_t from, to;
+    FieldComponent from;
+    std::size_t to;
     double addend;
   };
   std::vector<ByteRun> runs_;
@@ -53,8 +73,8 @@ RecordPacker::RecordPacker(const std::vector<Column>& columns)
 {
   for (const auto& column : columns) {
     const std::size_t bytes = datatypeSize(column.datatype);
-    if (column.widened)
-      widened_.push_back({column.offset, size_, column.addend});
+    if (isWidened(column))
+      widened_.push_back({{column.offset, column.stored}, size_, column.addend});
     else
       appendRun(runs_, {column.offset, size_, bytes});
     size_ += bytes;
@@ -67,9 +87,7 @@ RecordPacker::pack(const std::uint8_t* point, std::uint8_t* record) const
   for (const ByteRun& run : runs_)
     std::memcpy(record + run.to, point + run.from, run.bytes);
   for (const Widened& wide : widened_) {
-    float relative;
-    std::memcpy(&relative, point + wide.from, sizeof(relative));
-    const double value = wide.addend + relative;
+    const double value = wide.addend + wide.from.read(point);
     std::memcpy(record + wide.to, &value, sizeof(value));
   }
 }
@@ -82,14 +100,14 @@ findColumns(const Dataset& dataset, const Fields& fields)
   std::vector<Column> columns;
   for (const auto& field : fields) {
     const int axis = axisOf(field.name);
-    const bool widened = axis >= 0 && field.datatype == Type::FLOAT64;
+    const std::uint8_t stored = storedType(dataset, field);
     for (std::size_t i = 0; i < field.count; ++i)
       columns.push_back(
           {field.count > 1 ? field.name + '_' + std::to_string(i) : field.name,
            field.datatype,
-           field.offset + i * datatypeSize(field.datatype),
-           widened,
-           widened ? dataset.origin[static_cast<std::size_t>(axis)] : 0.0,
+           field.offset + i * datatypeSize(stored),
+           stored,
+           axis >= 0 ? dataset.origin[static_cast<std::size_t>(axis)] : 0.0,
            findLabels(dataset.cloud.fields, dataset.labels, field.name)});
   }
   return columns;
@@ -116,13 +134,12 @@ void
 appendNumber(std::string& text, const Column& column, const std::uint8_t* point)
 {
   const std::uint8_t* const bytes = point + column.offset;
-  if (!column.widened) {
+  if (!isWidened(column)) {
     pcl_uvol::appendNumber(text, column.datatype, bytes);
     return;
   }
-  float relative;
-  std::memcpy(&relative, bytes, sizeof(relative));
-  const double value = column.addend + relative;
+  const double value =
+      column.addend + FieldComponent{column.offset, column.stored}.read(point);
   std::uint8_t wide[sizeof(value)];
   std::memcpy(wide, &value, sizeof(value));
   pcl_uvol::appendNumber(text, column.datatype, wide);

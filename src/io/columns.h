@@ -16,8 +16,8 @@ struct Column {
   std::string name;
   std::uint8_t datatype; ///< in the file
   std::size_t offset;    ///< in the point
-  bool widened;          ///< float32 in the point, addend + float64 in the file
-  double addend;
+  std::uint8_t stored;   ///< datatype in the point; another one becomes a float64
+  double addend;         ///< of a number that becomes a float64
   const std::vector<std::string>* labels =
       nullptr; ///< names that the numbers stand for
 };
@@ -45,7 +45,8 @@ private:
   std::size_t written_ = 0;
 };
 
-/** \brief The numbers of savedFields(); components are called name_0, name_1, ... */
+/** \brief The numbers of savedFields() or heldFields(); components are called name_0,
+ * name_1, ... */
 std::vector<Column>
 findColumns(const Dataset& dataset, const Fields& fields);
 

@@ -110,8 +110,6 @@ checkSavePath(const std::string& path, const std::vector<pcl::PCLPointField>& fi
         io::describeEnding(ending) +
             "; points are written as .pcd, .ply, .vtp, .vtkhdf, .csv or .npz");
   io::checkWritable(path);
-  if (ending == ".ply")
-    io::checkPlyFields(path, fields);
   if (ending == ".vtp")
     io::checkVtpFields(path, fields);
 }

@@ -175,12 +175,7 @@ writePcd(const std::string& file,
          const Dataset& dataset,
          const SaveOptions& options);
 
-/** \brief
- * \throws IOError if PLY lacks the type of a field */
-void
-checkPlyFields(const std::string& path, const std::vector<pcl::PCLPointField>& fields);
-
-/** \brief
+/** \brief The fields of heldFields().
  * \param triangles faces over the points; may be empty */
 void
 writePly(const std::string& file,

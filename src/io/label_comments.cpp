@@ -46,22 +46,4 @@ takeLabelComment(std::string_view comment, LabelNames& labels)
 
 } // namespace io
 
-std::string
-describeUnheldLabels(const std::string& path, const Dataset& dataset)
-{
-  const std::string ending = io::getEnding(path);
-  const bool has_comments = ending == ".pcd" || ending == ".ply";
-  std::string fields;
-  for (const auto& field : dataset.cloud.fields)
-    if (findLabels(dataset.cloud.fields, dataset.labels, field.name))
-      fields += (fields.empty() ? "" : ", ") + quoteText(field.name);
-  if (fields.empty() || (!has_comments && ending != ".npz" && ending != ".vtkhdf"))
-    return "";
-  return path + " holds numbers only: the names in " + fields +
-         (has_comments ? " are counted from 0 in alphabetical order, and comments of "
-                         "the file list them."
-                       : " are counted from 0 in alphabetical order, and .csv, .ply or "
-                         ".vtp keep them.");
-}
-
 } // namespace pcl_uvol

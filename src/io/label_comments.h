@@ -28,10 +28,4 @@ takeLabelComment(std::string_view comment, LabelNames& labels);
 
 } // namespace io
 
-/** \brief A sentence about columns of names that a file of that ending has no place
- * for;
- * "" where there are none. */
-PCL_UVOL_EXPORTS std::string
-describeUnheldLabels(const std::string& path, const Dataset& dataset);
-
 } // namespace pcl_uvol

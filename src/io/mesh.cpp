@@ -78,8 +78,6 @@ saveMesh(const std::string& path,
 {
   checkMeshPath(path);
   const std::string ending = io::getEnding(path);
-  if (ending == ".ply")
-    io::checkPlyFields(path, vertices.cloud.fields);
   writeAtomically(path, [&](const std::string& file) {
     if (ending == ".ply")
       io::writePly(file, path, vertices, triangles, options);

@@ -3,6 +3,7 @@
 #include "io/columns.h"
 #include "io/files.h"
 #include "io/formats.h"
+#include "io/held_fields.h"
 #include "io/label_comments.h"
 #include "io/ply_types.h"
 
@@ -27,11 +28,14 @@ unpackColors(const std::vector<Column>& columns)
       continue;
     }
     // PCL keeps them as the bytes blue, green, red, alpha
-    unpacked.push_back({"red", Type::UINT8, column.offset + 2, false, 0.0});
-    unpacked.push_back({"green", Type::UINT8, column.offset + 1, false, 0.0});
-    unpacked.push_back({"blue", Type::UINT8, column.offset, false, 0.0});
+    const auto append = [&](const char* name, std::size_t byte) {
+      unpacked.push_back({name, Type::UINT8, column.offset + byte, Type::UINT8, 0.0});
+    };
+    append("red", 2);
+    append("green", 1);
+    append("blue", 0);
     if (alpha)
-      unpacked.push_back({"alpha", Type::UINT8, column.offset + 3, false, 0.0});
+      append("alpha", 3);
   }
   return unpacked;
 }
@@ -101,23 +105,13 @@ plyTypeName(std::uint8_t datatype)
 }
 
 void
-checkPlyFields(const std::string& path, const std::vector<Type>& fields)
-{
-  for (const auto& field : fields)
-    if (!plyTypeName(field.datatype))
-      throwUnwritable(path,
-                      "PLY has no 64-bit integers as the field '" + field.name +
-                          "' needs; write .pcd, .vtp or .csv");
-}
-
-void
 writePly(const std::string& file,
          const std::string& path,
          const Dataset& dataset,
          const std::vector<Triangle>& triangles,
          const SaveOptions& options)
 {
-  Fields fields = savedFields(dataset);
+  Fields fields = heldFields(".ply", dataset);
   renameFields(fields, cloud_normals, ply_normals);
   std::vector<Column> columns = unpackColors(findColumns(dataset, fields));
   std::vector<std::string> names, comments = options.comments;

@@ -330,16 +330,6 @@ TEST(AtomicWriting, AKilledWriterLeavesNothing)
   EXPECT_EQ(readFile(folder / "old.csv"), "the old one");
 }
 
-TEST(AtomicWriting, TypesThatTheFormatLacksAreRefusedBeforeTheWork)
-{
-  pcl::PCLPointField id;
-  id.name = "id";
-  id.datatype = pcl::PCLPointField::INT64; // as VTK's global ids
-  const std::string message = messageOf<IOError>([&] { checkSavePath("a.ply", {id}); });
-  EXPECT_NE(message.find("'id'"), std::string::npos) << message;
-  EXPECT_NO_THROW(checkSavePath("a.pcd", {id}));
-}
-
 TEST(AtomicWriting, PathsThatCannotBe)
 {
   const TemporaryFolder folder;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What is saved comes back: every format, encoding, type; large coordinates; no points.
+#include "io/held_fields.h"
 #include "random_dataset.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>
+#include <cstring>
 
 using namespace pcl_uvol;
 using namespace uvol_test;
@@ -151,14 +153,65 @@ TEST(RoundTrip, NamesAndCommentsThatFormatsLack)
   }
 }
 
-TEST(RoundTrip, TypesThatPlyLacksAreRefusedByName)
+namespace {
+
+/** Points whose field "id" has these bits. */
+Dataset
+withIntegers(std::uint8_t datatype, const std::vector<std::uint64_t>& numbers)
 {
-  const TemporaryFolder folder;
-  const auto dataset = makeDataset({{"id", Type::INT64}}, 3, 2);
-  EXPECT_NE(
-      messageOf<IOError>([&] { saveDataset(folder / "a.ply", dataset); }).find("'id'"),
-      std::string::npos);
-  EXPECT_TRUE(folder.list().empty());
+  Dataset dataset = makeDataset({{"id", datatype}, {"a", Type::FLOAT32}},
+                                static_cast<unsigned>(numbers.size()),
+                                2);
+  const auto offset = findField(dataset.cloud.fields, "id")->offset;
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    std::memcpy(&dataset.cloud.data[i * dataset.cloud.point_step + offset],
+                &numbers[i],
+                sizeof(numbers[i]));
+  return dataset;
+}
+
+} // namespace
+
+TEST(RoundTrip, IntegersThatPlyLacksBecomeDoublesIfTheseAreExact)
+{
+  constexpr std::uint64_t most = std::uint64_t(1) << 53;
+  for (const bool ascii : {false, true})
+    for (const auto& dataset :
+         {withIntegers(Type::UINT64, {0, most, 2 * most + 2, std::uint64_t(1) << 63}),
+          withIntegers(Type::INT64, {0, most, 0 - most, std::uint64_t(1) << 63})}) {
+      EXPECT_TRUE(describeLosses("a.ply", dataset).empty());
+      const Dataset loaded = roundTrip(dataset, {"a.ply", ascii});
+      ASSERT_EQ(4u, loaded.cloud.width);
+      EXPECT_EQ(Type::FLOAT64, findField(loaded.cloud.fields, "id")->datatype);
+      for (std::size_t i = 0; i < 4; ++i) {
+        EXPECT_EQ(valueOf(dataset, "id", i), valueOf(loaded, "id", i)) << i;
+        EXPECT_EQ(valueOf(dataset, "a", i), valueOf(loaded, "a", i)) << i;
+        EXPECT_EQ(valueOf(dataset, "z", i), valueOf(loaded, "z", i)) << i;
+      }
+    }
+}
+
+TEST(RoundTrip, IntegersThatDoubleDoesNotHoldAreLeftOutOfPlyOnly)
+{
+  constexpr std::uint64_t beyond = (std::uint64_t(1) << 53) + 1;
+  for (const auto& dataset : {withIntegers(Type::UINT64, {1, beyond}),
+                              withIntegers(Type::UINT64, {1, ~std::uint64_t(0)}),
+                              withIntegers(Type::INT64, {1, 0 - beyond})}) {
+    const Dataset loaded = roundTrip(dataset, {"a.ply", false});
+    EXPECT_EQ(nullptr, findField(loaded.cloud.fields, "id"));
+    EXPECT_EQ(valueOf(dataset, "a", 1), valueOf(loaded, "a", 1));
+    const auto losses = describeLosses("a.ply", dataset);
+    ASSERT_EQ(1u, losses.size());
+    EXPECT_EQ("a.ply leaves out the field 'id': the format has no 64-bit integers, and "
+              "double does not hold its values exactly. Try: .vtp, .pcd or .csv to "
+              "keep it.",
+              losses[0]);
+    for (const char* const file : {"a.pcd", "a.vtp", "a.vtkhdf", "a.npz"}) {
+      EXPECT_TRUE(describeLosses(file, dataset).empty());
+      expectSameFields(dataset, roundTrip(dataset, {file, false}));
+    }
+    EXPECT_TRUE(describeLosses("a.csv", dataset).empty());
+  }
 }
 
 TEST(RoundTrip, NoPoints)

@@ -24,46 +24,38 @@ struct RealData {
   const char* field;
   const char* isovalues;
   const char* options;
-  const char*
-      ending; ///< of the output: PLY has no 64-bit integers, which some files have
 };
 
 const RealData data_sets[] = {
-    {"particles/starsmasher_giant.csv", "rho", "3e-4,1e-3,1e-2,0.1,1", "", "ply"},
-    {"particles/starsmasher_giant.csv", "u", "0.3,1", "", "ply"},
-    {"particles/planet_remnant.csv", "rho_g_cm3", "3.45,4.5,8,12", "", "ply"},
-    {"particles/planet_remnant.csv", "entropy_erg_gK", "2e7", "", "ply"},
-    {"particles/dam_break_frame_9.csv", "density", "500,700,900", "", "ply"},
-    {"particles/dam_break_frame_9.csv", "|vx,vy,vz|", "1,2,4", "", "ply"},
-    {"particles/double_dam_break_frame_26.vtk", "|velocity|", "1,2,3", "", "ply"},
-    {"sensors/babbitt_drillholes.csv", "cu_pct", "0.3,0.6,1.0", "", "ply"},
-    {"sensors/babbitt_drillholes.csv", "ni_pct", "0.1,0.2", "", "ply"},
-    {"sensors/seaglider_sg542.csv", "temperature_C", "4,6,9", "-scale auto", "ply"},
-    {"sensors/seaglider_sg542.csv", "oxygen_umol_kg", "200,250", "-scale auto", "ply"},
-    {"sensors/seaglider_sg542.csv", "salinity_psu", "34.3", "-scale auto", "ply"},
+    {"particles/starsmasher_giant.csv", "rho", "3e-4,1e-3,1e-2,0.1,1", ""},
+    {"particles/starsmasher_giant.csv", "u", "0.3,1", ""},
+    {"particles/planet_remnant.csv", "rho_g_cm3", "3.45,4.5,8,12", ""},
+    {"particles/planet_remnant.csv", "entropy_erg_gK", "2e7", ""},
+    {"particles/dam_break_frame_9.csv", "density", "500,700,900", ""},
+    {"particles/dam_break_frame_9.csv", "|vx,vy,vz|", "1,2,4", ""},
+    {"particles/double_dam_break_frame_26.vtk", "|velocity|", "1,2,3", ""},
+    {"sensors/babbitt_drillholes.csv", "cu_pct", "0.3,0.6,1.0", ""},
+    {"sensors/babbitt_drillholes.csv", "ni_pct", "0.1,0.2", ""},
+    {"sensors/seaglider_sg542.csv", "temperature_C", "4,6,9", "-scale auto"},
+    {"sensors/seaglider_sg542.csv", "oxygen_umol_kg", "200,250", "-scale auto"},
+    {"sensors/seaglider_sg542.csv", "salinity_psu", "34.3", "-scale auto"},
     {"sensors/argo_4901079_gulfstream.csv",
      "temperature_C",
      "8,12,16,18",
-     "-scale auto",
-     "ply"},
-    {"sensors/argo_4901079_gulfstream.csv",
-     "salinity_psu",
-     "35.5",
-     "-scale auto",
-     "ply"},
+     "-scale auto"},
+    {"sensors/argo_4901079_gulfstream.csv", "salinity_psu", "35.5", "-scale auto"},
     {"sensors/orebro_gas_network.csv",
      "mean_ppm",
      "1",
-     "-where experiment=1 -xyz 1,2,3",
-     "ply"},
-    {"cfd/comb.vts", "Density", "0.25,0.30,0.38,0.5", "", "ply"},
-    {"cfd/bluntfin.vts", "Density", "0.6,0.9,1.5,2.5", "", "ply"},
-    {"cfd/bluntfin.vts", "Pressure", "1.5,3", "", "ply"},
-    {"cfd/disk_out_ref.vtu", "Temp", "350,450,600,800", "", "vtp"},
-    {"cfd/disk_out_ref.vtu", "AsH3", "0.14", "", "vtp"},
-    {"cfd/blow.vtk", "thickness9", "0.3,0.5,0.9", "", "ply"},
-    {"cfd/can.vtu", "|VEL|", "2000,4000", "", "vtp"},
-    {"volumes/ironProt.vtk", "scalars", "36,80,128", "", "ply"}};
+     "-where experiment=1 -xyz 1,2,3"},
+    {"cfd/comb.vts", "Density", "0.25,0.30,0.38,0.5", ""},
+    {"cfd/bluntfin.vts", "Density", "0.6,0.9,1.5,2.5", ""},
+    {"cfd/bluntfin.vts", "Pressure", "1.5,3", ""},
+    {"cfd/disk_out_ref.vtu", "Temp", "350,450,600,800", ""},
+    {"cfd/disk_out_ref.vtu", "AsH3", "0.14", ""},
+    {"cfd/blow.vtk", "thickness9", "0.3,0.5,0.9", ""},
+    {"cfd/can.vtu", "|VEL|", "2000,4000", ""},
+    {"volumes/ironProt.vtk", "scalars", "36,80,128", ""}};
 
 class OnRealData : public testing::TestWithParam<RealData> {
 protected:
@@ -128,10 +120,9 @@ TEST_P(OnRealData, ToolsRunAndFindTheSurface)
   const RealData& data = GetParam();
   const uvol_test::TemporaryFolder folder;
   EXPECT_EQ(0, runCommand("uvol_info '" + path_ + "'").exit_code);
-  const auto result =
-      runCommand("uvol_isosurface '" + path_ + "' '" +
-                 (folder / ("out." + std::string(data.ending))) + "' -field '" +
-                 data.field + "' -iso " + data.isovalues + " -json " + data.options);
+  const auto result = runCommand("uvol_isosurface '" + path_ + "' '" +
+                                 (folder / "out.ply") + "' -field '" + data.field +
+                                 "' -iso " + data.isovalues + " -json " + data.options);
   ASSERT_EQ(0, result.exit_code) << result.err;
   // The lowest speed of the can is 2006, so that one of its isovalues is empty.
   const bool empty = result.out.find("No isopoints") != std::string::npos;

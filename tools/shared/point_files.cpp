@@ -2,7 +2,8 @@
 #include "shared/point_files.h"
 
 #include "common/printable.h"
-#include "io/label_comments.h"
+#include "common/scalar_field.h"
+#include "io/held_fields.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>
@@ -130,13 +131,12 @@ addField(pcl_uvol::Dataset& points,
 }
 
 void
-warnOfLabels(const std::string& path,
+warnOfLosses(const std::string& path,
              const pcl_uvol::Dataset& dataset,
              pcl_uvol::Report& report)
 {
-  const std::string sentence = pcl_uvol::describeUnheldLabels(path, dataset);
-  if (!sentence.empty())
-    report.warnings.push_back(sentence);
+  const auto losses = pcl_uvol::describeLosses(path, dataset);
+  report.warnings.insert(report.warnings.end(), losses.begin(), losses.end());
 }
 
 void
@@ -147,7 +147,7 @@ savePoints(const std::string& path,
 {
   const pcl_uvol::StepTimer timer(report, "write");
   pcl_uvol::saveDataset(path, dataset, options);
-  warnOfLabels(path, dataset, report);
+  warnOfLosses(path, dataset, report);
 }
 
 } // namespace uvol_tools

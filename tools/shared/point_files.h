@@ -72,9 +72,9 @@ addField(pcl_uvol::Dataset& points,
          const Options& options,
          pcl_uvol::Report& report);
 
-/** \brief Warn of columns of names that a file has no place for. */
+/** \brief Warn of fields and names of a dataset that its file does not hold. */
 void
-warnOfLabels(const std::string& path,
+warnOfLosses(const std::string& path,
              const pcl_uvol::Dataset& dataset,
              pcl_uvol::Report& report);
 

@@ -125,6 +125,7 @@ Runner::writePoints(const InterpolatedFields& answers,
     saveDataset(probe_.output, points, save);
   else
     saveMesh(probe_.output, points, triangles, save);
+  warnOfLosses(probe_.output, points, report_);
   return {{"appended fields", list}};
 }
 

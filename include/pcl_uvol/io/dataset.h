@@ -70,6 +70,8 @@ loadDataset(const std::string& path, const LoadOptions& options = {});
 /** \brief Write points as .pcd, .ply, .vtp, .vtkhdf, .csv or .npz, by the ending of the
  * name, or to standard output: "-" is PLY, "-.csv" and the like another format. The
  * file appears whole or not at all; an empty cloud gives a valid file with zero points.
+ * PLY has no 64-bit integers: such a field is written as double if double holds each of
+ * its values exactly, and is left out otherwise.
  * \param path of the file, or "-"
  * \param dataset what is written
  * \param options text or binary, comments
@@ -80,8 +82,8 @@ saveDataset(const std::string& path,
             const SaveOptions& options = {});
 
 /** \brief Throw IOError unless saveDataset knows the ending of that name, its folder
- * can be written to and the format holds fields of these types: to be called before
- * work whose result would be lost.
+ * can be written to and the format holds so many fields: to be called before work whose
+ * result would be lost.
  * \param path as saveDataset() will get it
  * \param fields of the cloud */
 PCL_UVOL_EXPORTS void

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The extension _io: files, which take VTK's libraries with them.
+#include "io/held_fields.h"
 #include "io/lattice_file.h"
 #include "shared/convert.h"
 #include "shared/interruptible.h"
@@ -52,8 +53,9 @@ readMesh(const std::string& path)
   return py::make_tuple(vertices, toIndices(std::move(triangles)));
 }
 
-/** With triangles a mesh, else points. */
-void
+/** With triangles a mesh, else points.
+ * \return what the file does not hold of them, one sentence each */
+std::vector<std::string>
 writePoints(const std::string& path,
             const Dataset& points,
             const DenseArray<std::uint32_t>& triangles,
@@ -72,6 +74,7 @@ writePoints(const std::string& path,
     else
       saveMesh(path, points, mesh, options);
   });
+  return describeLosses(path, points);
 }
 
 /** An array of a lattice as its file holds it. */

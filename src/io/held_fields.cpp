@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/held_fields.h"
+
+#include "common/printable.h"
+#include "common/scalar_field.h"
+#include "io/files.h"
+#include "io/ply_types.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace pcl_uvol {
+namespace io {
+namespace {
+
+using Type = pcl::PCLPointField;
+
+/** True for what has at most 53 digits in the binary system, which double keeps. */
+bool
+isExactInDouble(std::uint64_t magnitude)
+{
+  while (magnitude != 0 && magnitude % 2 == 0)
+    magnitude /= 2;
+  return magnitude < std::uint64_t(1) << 53;
+}
+
+/** Whether double holds all numbers of a field of 64-bit integers. */
+bool
+isExactInDouble(const pcl::PCLPointCloud2& cloud, const pcl::PCLPointField& field)
+{
+  const std::size_t points = std::size_t{cloud.width} * cloud.height;
+  const std::uint8_t* point = cloud.data.data() + field.offset;
+  for (std::size_t i = 0; i < points; ++i, point += cloud.point_step)
+    for (std::size_t k = 0; k < field.count; ++k) {
+      std::uint64_t bits;
+      std::memcpy(&bits, point + k * sizeof(bits), sizeof(bits));
+      const bool is_negative = field.datatype == Type::INT64 && bits >> 63 != 0;
+      if (!isExactInDouble(is_negative ? 0 - bits : bits))
+        return false;
+    }
+  return true;
+}
+
+bool
+isLeftOut(const std::string& ending,
+          const Dataset& dataset,
+          const pcl::PCLPointField& field)
+{
+  return !holdsType(ending, field.datatype) && !isExactInDouble(dataset.cloud, field);
+}
+
+} // namespace
+
+bool
+holdsType(const std::string& ending, std::uint8_t datatype)
+{
+  return ending != ".ply" || plyTypeName(datatype) != nullptr;
+}
+
+Fields
+heldFields(const std::string& ending, const Dataset& dataset)
+{
+  Fields held;
+  for (pcl::PCLPointField& field : savedFields(dataset)) {
+    if (isLeftOut(ending, dataset, field))
+      continue;
+    if (!holdsType(ending, field.datatype))
+      field.datatype = Type::FLOAT64;
+    held.push_back(std::move(field));
+  }
+  return held;
+}
+
+namespace {
+
+std::string
+describeFieldsLeftOut(const std::string& path, const Dataset& dataset)
+{
+  const std::string ending = getEnding(path);
+  std::string names;
+  std::size_t count = 0;
+  for (const auto& field : savedFields(dataset))
+    if (isLeftOut(ending, dataset, field)) {
+      names += (names.empty() ? "" : ", ") + quoteText(field.name);
+      ++count;
+    }
+  if (count == 0)
+    return "";
+  return path + " leaves out the " + (count > 1 ? "fields " : "field ") + names +
+         ": the format has no 64-bit integers, and double does not hold " +
+         (count > 1 ? "their" : "its") +
+         " values exactly. Try: .vtp, .pcd or .csv to keep " +
+         (count > 1 ? "them." : "it.");
+}
+
+std::string
+describeUnheldLabels(const std::string& path, const Dataset& dataset)
+{
+  const std::string ending = getEnding(path);
+  const bool has_comments = ending == ".pcd" || ending == ".ply";
+  std::string fields;
+  for (const auto& field : dataset.cloud.fields)
+    if (findLabels(dataset.cloud.fields, dataset.labels, field.name))
+      fields += (fields.empty() ? "" : ", ") + quoteText(field.name);
+  if (fields.empty() || (!has_comments && ending != ".npz" && ending != ".vtkhdf"))
+    return "";
+  return path + " holds numbers only: the names in " + fields +
+         (has_comments ? " are counted from 0 in alphabetical order, and comments of "
+                         "the file list them."
+                       : " are counted from 0 in alphabetical order, and .csv, .ply or "
+                         ".vtp keep them.");
+}
+
+} // namespace
+} // namespace io
+
+std::vector<std::string>
+describeLosses(const std::string& path, const Dataset& dataset)
+{
+  std::vector<std::string> sentences{io::describeFieldsLeftOut(path, dataset),
+                                     io::describeUnheldLabels(path, dataset)};
+  sentences.erase(std::remove(sentences.begin(), sentences.end(), ""), sentences.end());
+  return sentences;
+}
+
+} // namespace pcl_uvol
