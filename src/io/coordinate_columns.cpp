@@ -15,107 +15,250 @@ namespace pcl_uvol::io {
 namespace {
 
 /** Ways to name coordinates, the plainest first. */
-enum System { Plain, WithUnit, Projected, Geographic, systems };
+enum System { Plain, WithUnit, Projected, Geographic, CommonEnding, systems };
 
 struct Axis {
   System system;
   std::size_t axis;
 };
 
-/** A name in lower case and what stands behind its first word: "x (km)" -> "x", "km".
- */
+/** A name in lower case, around the word that may be an axis: "Position X (km)" is "x"
+ * with the unit "km", "NAV_LATITUDE" is "latitude" with "nav" before it. */
 struct Parts {
-  std::string word, unit;
+  std::string before, word, unit;
+  bool is_quantity = false; ///< as "x_vel": it has an axis, but is not a coordinate
 };
 
-constexpr const char* separators = "_-. ([/";
+using Words = std::set<std::string>;
 
-/** What is left of a unit behind words that are none: "minus_dbar" -> "dbar",
- * "coord" -> "". */
-std::string
-withoutFillers(const std::string& unit)
+/** Words that say no more than that a number is a coordinate. */
+bool
+isFiller(const std::string& word)
 {
-  static const std::set<std::string> fillers{
-      "coord", "coords", "coordinate", "coordinates", "minus"};
-  const std::size_t end = std::min(unit.find_first_of(separators), unit.size());
-  return fillers.count(unit.substr(0, end)) > 0
-             ? unit.substr(std::min(end + 1, unit.size()))
-             : unit;
+  static const Words words{"coord",
+                           "coords",
+                           "coordinate",
+                           "coordinates",
+                           "pos",
+                           "position",
+                           "positions",
+                           "point",
+                           "points",
+                           "loc",
+                           "location",
+                           "center",
+                           "centre",
+                           "centroid",
+                           "mid",
+                           "midpoint",
+                           "minus"};
+  return words.count(word) > 0;
 }
 
-Parts
-splitName(const std::string& name)
+/** Words of vectors and of statistics, whose numbers are not coordinates; a unit that
+ * ends with seconds is that of a speed. */
+bool
+isQuantity(const std::string& word)
 {
-  const std::string lower = lowerCase(trimmed(name));
-  const std::size_t end = lower.find_first_of(separators);
-  if (end == std::string::npos)
-    return {lower, ""};
-  std::string unit = lower.substr(end);
-  const std::size_t first = unit.find_first_not_of(separators);
-  unit = first == std::string::npos ? "" : unit.substr(first);
-  return {lower.substr(0, end),
-          withoutFillers(unit.substr(0, unit.find_first_of(")] ")))};
+  static const Words words{
+      "v",     "vel",      "velocity",  "speed", "acc",          "accel",
+      "force", "momentum", "normal",    "grad",  "gradient",     "flux",
+      "field", "mag",      "vorticity", "disp",  "displacement", "err",
+      "error", "std",      "sigma",     "var",   "min",          "max",
+      "index", "dir",      "direction", "wind",  "orient",       "size",
+      "s",     "sec"};
+  return words.count(word) > 0;
 }
 
 bool
 isLength(const std::string& unit)
 {
-  static const std::set<std::string> units{
-      "m",  "km",   "cm",     "mm",  "um",     "nm",     "a",    "angstrom",
-      "ft", "feet", "in",     "mi",  "au",     "pc",     "kpc",  "mpc",
-      "ly", "rsun", "rearth", "utm", "meters", "metres", "code", "px"};
+  static const Words units{
+      "m",   "km",    "cm",       "mm",    "um",     "\xc2\xb5m", "\xce\xbcm",
+      "nm",  "a",     "angstrom", "ft",    "feet",   "in",        "mi",
+      "au",  "pc",    "kpc",      "mpc",   "ly",     "rsun",      "rearth",
+      "utm", "meter", "meters",   "metre", "metres", "code",      "px"};
   return units.count(unit) > 0;
 }
 
 bool
 isVertical(const std::string& word)
 {
-  static const std::set<std::string> words{
+  static const Words words{
       "z", "elevation", "elev", "rl", "altitude", "alt", "height", "depth"};
   return words.count(word) > 0;
+}
+
+bool
+isLetter(std::string_view word)
+{
+  return word.size() == 1 && word[0] >= 'x' && word[0] <= 'z';
+}
+
+/** The axes of maps, wherever these words are in a name. */
+const std::map<std::string, Axis>&
+listMapAxes()
+{
+  static const std::map<std::string, Axis> axes{{"e", {Projected, 0}},
+                                                {"n", {Projected, 1}},
+                                                {"easting", {Projected, 0}},
+                                                {"eastings", {Projected, 0}},
+                                                {"east", {Projected, 0}},
+                                                {"northing", {Projected, 1}},
+                                                {"northings", {Projected, 1}},
+                                                {"north", {Projected, 1}},
+                                                {"longitude", {Geographic, 0}},
+                                                {"lon", {Geographic, 0}},
+                                                {"long", {Geographic, 0}},
+                                                {"lng", {Geographic, 0}},
+                                                {"latitude", {Geographic, 1}},
+                                                {"lat", {Geographic, 1}}};
+  return axes;
+}
+
+/** Append a word, or what it is glued of: "xcoord" and "coordx" are "x",
+ * "decimallongitude" is "decimal" and "longitude". Models of blocks name the centres
+ * XC, YC and ZC. */
+void
+appendWord(const std::string& word, std::vector<std::string>& words)
+{
+  if (word.empty())
+    return;
+  const std::string first = word.substr(0, 1), behind = word.substr(1),
+                    last = word.substr(word.size() - 1),
+                    front = word.substr(0, word.size() - 1);
+  if (isLetter(first) && (isFiller(behind) || behind == "c"))
+    words.push_back(first);
+  else if (isLetter(last) && isFiller(front))
+    words.push_back(last);
+  else {
+    std::size_t axis = 0;
+    for (const char* const known : {"longitude", "latitude"})
+      if (const std::size_t at = word.rfind(known);
+          at != std::string::npos && at + std::string_view(known).size() == word.size())
+        axis = at;
+    if (axis > 0)
+      words.push_back(word.substr(0, axis));
+    words.push_back(word.substr(axis));
+  }
+}
+
+std::vector<std::string>
+splitIntoWords(const std::string& name)
+{
+  std::vector<std::string> words;
+  std::string word;
+  for (const char c : lowerCase(name) + ' ')
+    if (std::string_view(" \t_-.,:;/()[]{}").find(c) == std::string_view::npos)
+      word += c;
+    else {
+      appendWord(word, words);
+      word.clear();
+    }
+  // ParaView numbers components: "Points:0"
+  if (words.size() == 2 && isFiller(words[0]) && words[1].size() == 1 &&
+      words[1][0] >= '0' && words[1][0] <= '2')
+    words[1][0] = static_cast<char>(words[1][0] - '0' + 'x');
+  return words;
+}
+
+Parts
+splitName(const std::string& name)
+{
+  Parts parts;
+  for (const std::string& word : splitIntoWords(name)) {
+    parts.is_quantity = parts.is_quantity || isQuantity(word);
+    if (parts.word.empty() &&
+        (isLetter(word) || isVertical(word) || listMapAxes().count(word) > 0))
+      parts.word = word;
+    else if (!isFiller(word)) {
+      std::string& text = parts.word.empty() ? parts.before : parts.unit;
+      text += (text.empty() ? "" : "_") + word;
+    }
+  }
+  if (parts.before == "utm" && parts.unit.empty())
+    parts.before.swap(parts.unit);
+  return parts;
 }
 
 /** What a column is an axis of; verticals are those of every system but the plainest.
  */
 std::vector<Axis>
-listAxes(const std::string& name)
+listAxes(const std::string& name, const Parts& parts)
 {
-  const auto [word, unit] = splitName(name);
+  const auto& [before, word, unit, is_quantity] = parts;
   std::vector<Axis> axes;
-  if (word.size() == 1 && word[0] >= 'x' && word[0] <= 'z') {
+  if (is_quantity)
+    return axes;
+  const bool has_known_unit = isLength(unit) || unit.empty();
+  if (isLetter(word) && before.empty()) {
     const auto axis = static_cast<std::size_t>(word[0] - 'x');
-    if (unit.empty() && trimmed(name).size() == 1)
+    if (trimmed(name).size() == 1)
       axes.push_back({Plain, axis});
-    if (isLength(unit) || unit.empty() || axis == 2)
+    if (has_known_unit || axis == 2)
       axes.push_back({WithUnit, axis});
+    if (!has_known_unit)
+      axes.push_back({CommonEnding, axis});
   }
-  else if (word == "easting" || word == "east" || word == "eastings")
-    axes.push_back({Projected, 0});
-  else if (word == "northing" || word == "north" || word == "northings")
-    axes.push_back({Projected, 1});
-  else if (word == "lon" || word == "long" || word == "longitude")
-    axes.push_back({Geographic, 0});
-  else if (word == "lat" || word == "latitude")
-    axes.push_back({Geographic, 1});
-  if (isVertical(word)) {
-    if (word != "z" && (isLength(unit) || unit.empty()))
+  if (const auto axis = listMapAxes().find(word);
+      axis != listMapAxes().end() && (word.size() > 1 || has_known_unit))
+    axes.push_back(axis->second);
+  if (!isVertical(word) || (isLetter(word) && !before.empty()))
+    return axes;
+  axes.push_back({Projected, 2});
+  axes.push_back({Geographic, 2});
+  if (before.empty() && has_known_unit) {
+    axes.push_back({CommonEnding, 2});
+    if (!isLetter(word))
       axes.push_back({WithUnit, 2});
-    axes.push_back({Projected, 2});
-    axes.push_back({Geographic, 2});
   }
   return axes;
 }
 
-/** The column of the lowest rank is taken where several may be an axis: beside x and y
- * a height stands behind z in a unit of length, and before any other z, which may be a
- * speed. */
-int
-rankName(const std::string& name, System system)
+/** A column that may be an axis. */
+struct Candidate {
+  std::size_t column;
+  std::string key; ///< the same of all three columns; "" of a z that needs no other
+  int rank;        ///< of several columns, the first of the lowest rank is taken
+};
+
+/** In a unit of length, a height stands behind z, and before any other z. */
+Candidate
+makeCandidate(std::size_t column, System system, const Parts& parts)
 {
-  if (system != WithUnit)
-    return 0;
-  const auto [word, unit] = splitName(name);
-  return word.size() > 1 ? 1 : isLength(unit) || unit.empty() ? 0 : 2;
+  const bool has_known_unit = isLength(parts.unit) || parts.unit.empty();
+  if (system == CommonEnding)
+    return {column, has_known_unit ? "" : parts.unit, 0};
+  if (system == WithUnit)
+    return {column, "", parts.word.size() > 1 ? 1 : has_known_unit ? 0 : 2};
+  return {column, system == Plain ? "" : parts.before, 0};
+}
+
+/** The three columns of a system. Where several unknown endings have three columns
+ * each, as corners of boxes do, none is taken. */
+std::optional<std::array<std::size_t, 3>>
+findAxes(System system, const std::array<std::vector<Candidate>, 3>& candidates)
+{
+  std::array<std::map<std::string, const Candidate*>, 3> first;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (const Candidate& candidate : candidates[axis]) {
+      const Candidate*& taken = first[axis][candidate.key];
+      if (!taken || candidate.rank < taken->rank)
+        taken = &candidate;
+    }
+  std::optional<std::array<std::size_t, 3>> found;
+  for (const Candidate& x : candidates[0]) {
+    const auto y = first[1].find(x.key);
+    auto z = first[2].find(x.key);
+    if (z == first[2].end())
+      z = first[2].find("");
+    if (first[0][x.key] != &x || y == first[1].end() || z == first[2].end())
+      continue;
+    if (found)
+      return system == CommonEnding ? std::nullopt : found;
+    found = {{x.column, y->second->column, z->second->column}};
+  }
+  return found;
 }
 
 /** One word for a unit of length, "" for what is none. A decibar of sea water is a
@@ -123,11 +266,15 @@ rankName(const std::string& name, System system)
 std::string
 lengthUnit(const std::string& name)
 {
-  static const std::map<std::string, std::string> same{{"meters", "m"},
+  static const std::map<std::string, std::string> same{{"meter", "m"},
+                                                       {"meters", "m"},
+                                                       {"metre", "m"},
                                                        {"metres", "m"},
                                                        {"utm", "m"},
                                                        {"dbar", "m"},
                                                        {"feet", "ft"},
+                                                       {"\xc2\xb5m", "um"},
+                                                       {"\xce\xbcm", "um"},
                                                        {"angstrom", "a"}};
   const std::string unit = splitName(name).unit;
   const auto found = same.find(unit);
@@ -153,31 +300,43 @@ findMixture(System system, const std::array<std::string, 3>& names)
   return mixLengths(names) ? "different units of length" : "";
 }
 
+CoordinateColumns
+describeColumns(System system,
+                const std::array<std::size_t, 3>& found,
+                const std::vector<std::string>& names)
+{
+  CoordinateColumns columns{found, "", ""};
+  const std::string &x = names[found[0]], &y = names[found[1]], &z = names[found[2]];
+  const std::string mixture = findMixture(system, {x, y, z});
+  if (!mixture.empty())
+    columns.mixture = "Coordinates are " + x + ", " + y + " and " + z +
+                      ", so distances mix " + mixture +
+                      ": columns in one unit of length, or factors for the axes "
+                      "(-scale), mend that.";
+  if (system == CommonEnding)
+    columns.note =
+        "The columns " + shortenText(x) + ", " + shortenText(y) + " and " +
+        shortenText(z) +
+        " are taken as the coordinates, because their names share an ending. "
+        "Try: -xyz if other columns are the coordinates.";
+  return columns;
+}
+
 } // namespace
 
 std::optional<CoordinateColumns>
 recognizeCoordinates(const std::vector<std::string>& names)
 {
-  std::array<std::array<std::optional<std::size_t>, 3>, systems> found;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    for (const auto& [system, axis] : listAxes(names[i])) {
-      auto& taken = found[system][axis];
-      if (!taken || rankName(names[i], system) < rankName(names[*taken], system))
-        taken = i;
-    }
-  for (std::size_t system = 0; system < systems; ++system) {
-    const auto& [x, y, z] = found[system];
-    if (!x || !y || !z)
-      continue;
-    CoordinateColumns columns{{{*x, *y, *z}}, ""};
-    const std::string mixture =
-        findMixture(static_cast<System>(system), {names[*x], names[*y], names[*z]});
-    if (!mixture.empty())
-      columns.note = "Coordinates are " + names[*x] + ", " + names[*y] + " and " +
-                     names[*z] + ", so distances mix " + mixture +
-                     ": columns in one unit of length, or factors for the axes "
-                     "(-scale), mend that.";
-    return columns;
+  std::array<std::array<std::vector<Candidate>, 3>, systems> candidates;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const Parts parts = splitName(names[i]);
+    for (const auto& [system, axis] : listAxes(names[i], parts))
+      candidates[system][axis].push_back(makeCandidate(i, system, parts));
+  }
+  for (std::size_t i = 0; i < systems; ++i) {
+    const auto system = static_cast<System>(i);
+    if (const auto found = findAxes(system, candidates[i]))
+      return describeColumns(system, *found, names);
   }
   return std::nullopt;
 }
@@ -185,7 +344,9 @@ recognizeCoordinates(const std::vector<std::string>& names)
 bool
 mayBeCoordinate(const std::string& name)
 {
-  return !listAxes(name).empty();
+  const Parts parts = splitName(name);
+  return parts.before.empty() &&
+         (parts.is_quantity ? isLetter(parts.word) : !listAxes(name, parts).empty());
 }
 
 bool
@@ -227,9 +388,20 @@ std::array<std::size_t, 3>
 findChosenColumns(const std::array<std::string, 3>& chosen,
                   const std::vector<std::string>& names)
 {
+  const auto is_number = [&](const std::string& column) {
+    std::uint64_t number = 0;
+    return parseCount(column, number) && number < names.size();
+  };
+  const auto is_name = [&](const std::string& column) {
+    return std::find(names.begin(), names.end(), column) != names.end();
+  };
+  // A column called "0" does not take the place of the first one in 0,1,2.
+  const bool are_numbers = std::all_of(chosen.begin(), chosen.end(), is_number) &&
+                           !std::all_of(chosen.begin(), chosen.end(), is_name);
   std::array<std::size_t, 3> columns{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto named = std::find(names.begin(), names.end(), chosen[axis]);
+    const auto named =
+        are_numbers ? names.end() : std::find(names.begin(), names.end(), chosen[axis]);
     std::uint64_t number = 0;
     if (named != names.end())
       columns[axis] = static_cast<std::size_t>(named - names.begin());

@@ -13,22 +13,30 @@ namespace pcl_uvol::io {
 /** \brief The columns of x, y and z. */
 struct CoordinateColumns {
   std::array<std::size_t, 3> columns{{0, 1, 2}};
-  std::string note; ///< what their names do not promise; empty: nothing
+  std::string note;    ///< what was assumed about their names; empty: nothing
+  std::string mixture; ///< which units distances mix; empty: none that are known
 };
 
 /** \brief Find coordinates by the names of columns.
  *
- * In this order: x, y, z; the same with a unit of length, as x_km, "y (m)", z[ft], or
- * without one (x_coord), where a vertical (elevation, rl, altitude, height, depth) is
- * as good as z, and z may have any ending (z_minus_dbar); easting, northing and a
- * vertical; longitude, latitude and a vertical. A note tells of degrees, and of units
- * of length that differ. Upper and lower case are the same, and of several columns the
- * first counts.
- * \return nothing if the names tell no coordinates */
+ * Upper and lower case are the same, and so are separators between the words of a name.
+ * Words such as position, coordinate, point and center are ignored. In this order:
+ * - x, y, z
+ * - x, y, z with a unit of length, as x_km, "y (m)", z[ft], or with ignored words, as
+ *   pos_x, XCOORD, "Points:0"; a vertical (elevation, rl, altitude, height, depth)
+ *   counts as z, and z may have any ending (z_minus_dbar)
+ * - easting, northing and a vertical
+ * - longitude, latitude and a vertical
+ * - x, y, z with another ending in common, as x_kpch, y_kpch, z_kpch; a note says so
+ *
+ * A name with a word of another quantity (velocity, error, ...) is not a coordinate. Of
+ * several columns for an axis the first counts.
+ * \return nothing if the names do not contain three axes */
 std::optional<CoordinateColumns>
 recognizeCoordinates(const std::vector<std::string>& names);
 
-/** \brief Whether a name tells an axis of any of these systems, alone or not. */
+/** \brief Whether a name has an axis of any of these systems, or is a component of
+ * another quantity, as x_vel: then coordinates are not guessed. */
 bool
 mayBeCoordinate(const std::string& name);
 
@@ -38,7 +46,8 @@ bool
 saysTime(const std::string& name);
 
 /** \brief The columns that a user chose.
- * \param chosen names, or numbers from 0
+ * \param chosen names, or numbers from 0; three numbers of columns are numbers, unless
+ * all three are names as well
  * \throws InvalidArgument for a column that is not there, and for one that is chosen
  * twice */
 std::array<std::size_t, 3>

@@ -231,8 +231,10 @@ TextTable::findCoordinates()
     }
   }
   if (const auto found = recognizeCoordinates(names)) {
-    if (!found->note.empty() && !options_.may_mix_units)
+    if (!found->note.empty())
       notes_.push_back(found->note);
+    if (!found->mixture.empty() && !options_.may_mix_units)
+      notes_.push_back(found->mixture);
     return found->columns;
   }
   if (columns_.size() < 3)
