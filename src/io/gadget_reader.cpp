@@ -77,7 +77,7 @@ findLayout(const InputFile& file)
 struct Header {
   std::array<std::uint64_t, kinds> here{}, total{};
   std::array<double, kinds> masses{};
-  double time = 0.0, redshift = 0.0, box = 0.0, omega = 0.0, hubble = 1.0;
+  double time = 0.0, redshift = 0.0, box = 0.0, omega = 0.0, hubble = 0.0;
   std::uint32_t files = 1;
 };
 
@@ -349,9 +349,8 @@ openGadget(const std::string& path, const LoadOptions& options)
   std::vector<std::uint64_t> counts(header.total.begin(), header.total.end());
   const std::size_t kind =
       chooseKind(path, listGadgetKinds(counts), options.particles, notes);
-  noteHeader({header.omega > 0.0 ? header.redshift : 0.0,
-              header.omega > 0.0 ? header.hubble : 1.0},
-             notes);
+  if (header.omega > 0.0)
+    noteHeader({header.redshift, header.hubble}, notes);
   std::unique_ptr<RecordSource> source;
   if (parts.size() == 1)
     source = SnapshotFile(path, kind).open(notes);

@@ -11,7 +11,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <initializer_list>
 #include <limits>
+#include <optional>
 #include <sstream>
 #include <system_error>
 
@@ -78,6 +80,23 @@ openKind(const std::string& path, std::size_t kind, std::vector<std::string> not
   return reader.open(std::move(notes));
 }
 
+/** What is told of the cosmology: GADGET-4 has most of it among its parameters. */
+CosmologyHeader
+readCosmology(const Hdf5File& file)
+{
+  const auto find = [&](std::initializer_list<const char*> names) {
+    for (const char* const group : {"/Header", "/Parameters"})
+      for (const char* const name : names)
+        if (const auto numbers = file.readAttribute(group, name); !numbers.empty())
+          return std::optional<double>(numbers[0]);
+    return std::optional<double>();
+  };
+  const double redshift = find({"Redshift"}).value_or(0.0);
+  const bool is_cosmological =
+      redshift > 0.0 || find({"Omega0", "Omega_m"}).value_or(0.0) > 0.0;
+  return {redshift, is_cosmological ? find({"HubbleParam"}) : std::nullopt};
+}
+
 std::unique_ptr<RecordSource>
 openGadgetFamily(const Hdf5File& file, const LoadOptions& options)
 {
@@ -94,9 +113,7 @@ openGadgetFamily(const Hdf5File& file, const LoadOptions& options)
   std::vector<std::string> notes;
   const std::size_t kind =
       chooseKind(path, listGadgetKinds(total), options.particles, notes);
-  const double omega = number("Omega0", number("Omega_m", 0.0));
-  noteHeader({number("Redshift", 0.0), omega > 0.0 ? number("HubbleParam", 1.0) : 1.0},
-             notes);
+  noteHeader(readCosmology(file), notes);
   std::unique_ptr<RecordSource> source;
   if (parts.size() == 1)
     source = openKind(path, kind, std::move(notes));

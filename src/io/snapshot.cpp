@@ -114,12 +114,17 @@ toBox(const std::vector<double>& sides)
 void
 noteHeader(const CosmologyHeader& header, std::vector<std::string>& notes)
 {
-  if (header.redshift > 1e-9 || (header.hubble > 0.0 && header.hubble != 1.0)) {
-    std::ostringstream text;
-    text << "Numbers are those of the file, whose units hold factors of the redshift "
-         << header.redshift << " and of the Hubble parameter " << header.hubble << ".";
-    notes.push_back(text.str());
-  }
+  const bool has_hubble = header.hubble && *header.hubble > 0.0;
+  if (!(header.redshift > 1e-9) && !(has_hubble && *header.hubble != 1.0))
+    return;
+  std::ostringstream text;
+  text << "Numbers are those of the file, whose units hold factors of the redshift "
+       << header.redshift;
+  if (has_hubble)
+    text << " and of the Hubble parameter " << *header.hubble << ".";
+  else
+    text << ". The file does not give the Hubble parameter.";
+  notes.push_back(text.str());
 }
 
 } // namespace io

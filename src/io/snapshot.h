@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,7 +44,7 @@ listSnapshotFiles(const std::string& path, std::size_t count);
 /** \brief What the header of a cosmological snapshot tells. */
 struct CosmologyHeader {
   double redshift = 0.0;
-  double hubble = 1.0;
+  std::optional<double> hubble; ///< none: the file does not give it
 };
 
 /** \brief The sides of a box, of one number for all of them, or of three; 0 where

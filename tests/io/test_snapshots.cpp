@@ -290,7 +290,8 @@ TEST_F(Hdf5, SnapshotsGiveTheirNumbers)
     EXPECT_EQ(300 + number, valueAt(gas, "ParticleIDs", i));
   }
   EXPECT_TRUE(hasNote(gas, "8 of gas (0), 4 of stars (4)"));
-  EXPECT_TRUE(hasNote(gas, "redshift 0.5"));
+  EXPECT_TRUE(
+      hasNote(gas, "redshift 0.5. The file does not give the Hubble parameter."));
   EXPECT_FALSE(peekHeader(folder_ / "a.hdf5")->time);
   saveSnapshot("timed.hdf5", 0.0, 1, true);
   EXPECT_EQ(1.5, peekHeader(folder_ / "timed.hdf5")->time);
