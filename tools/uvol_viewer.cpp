@@ -78,8 +78,13 @@ load(const uvol_tools::Options& options,
     uvol_tools::addField(dataset, field, options, report);
     look.addColorOfSamples(options, dataset, report);
   }
-  return {
-      {std::move(dataset), field, options.threads(), look.getFactors()}, look, report};
+  const auto add_color = [look, &options](pcl_uvol::Dataset& surface,
+                                          Report& drawing) mutable {
+    look.addColor(options, surface, drawing);
+  };
+  return {{std::move(dataset), field, options.threads(), look.getFactors(), add_color},
+          look,
+          report};
 }
 
 int

@@ -249,7 +249,8 @@ ScalarField::ScalarField(const Fields& fields, const std::string& expression)
     return;
   }
   const std::string inside = name_.substr(1, name_.size() - 2);
-  if (inside.find(',') == std::string::npos) {
+  if (inside.find(',') == std::string::npos ||
+      !findComponents(fields, trimmed(inside)).empty()) {
     components_ = allComponents(fields, trimmed(inside));
     return;
   }

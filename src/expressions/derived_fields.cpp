@@ -8,6 +8,7 @@
 #include "neighbors/periodic_box.h"
 #include <pcl_uvol/expressions/derived_fields.h>
 
+#include <algorithm>
 #include <cstring>
 #include <utility>
 
@@ -25,6 +26,51 @@ isScalarField(const Fields& fields, const std::string& name)
   }
   catch (const InvalidArgument&) {
     return false;
+  }
+}
+
+bool
+areSame(const Formula& a, const Formula& b)
+{
+  const auto is_same = [](const Operand& one, const Operand& other) {
+    const auto starts_at_same_place = [](const FieldComponent& c,
+                                         const FieldComponent& d) {
+      return c.offset == d.offset && c.datatype == d.datatype;
+    };
+    return one.kind == other.kind && one.derivative == other.derivative &&
+           one.component == other.component &&
+           std::equal(one.components.begin(),
+                      one.components.end(),
+                      other.components.begin(),
+                      other.components.end(),
+                      starts_at_same_place) &&
+           std::equal(one.arguments.begin(),
+                      one.arguments.end(),
+                      other.arguments.begin(),
+                      other.arguments.end(),
+                      areSame);
+  };
+  return a.program == b.program && std::equal(a.operands.begin(),
+                                              a.operands.end(),
+                                              b.operands.begin(),
+                                              b.operands.end(),
+                                              is_same);
+}
+
+/** What titles and arrays are called: quotes stay only where the expression means
+ * something else without them. */
+std::string
+nameWithoutQuotes(const Dataset& header, const Formula& formula)
+{
+  std::string name = formula.text;
+  name.erase(std::remove(name.begin(), name.end(), '"'), name.end());
+  if (name == formula.text || findField(header.cloud.fields, name))
+    return formula.text;
+  try {
+    return areSame(formula, parseFormula(header, name)) ? name : formula.text;
+  }
+  catch (const InvalidArgument&) { // it means nothing
+    return formula.text;
   }
 }
 
@@ -128,6 +174,7 @@ findFormula(const Dataset& header,
   if (const std::size_t width = formula.width(); width > 1)
     throw ExpressionError(describeComponents(formula.operands.front()) + ".", text, 0);
   checkDerivatives(formula, options);
+  formula.text = nameWithoutQuotes(header, formula);
   return formula;
 }
 
@@ -148,9 +195,10 @@ addDerivedField(Dataset& dataset,
                 const DerivedFieldOptions& options,
                 Report& report)
 {
-  const auto formula = findFormula(dataset, expression, options);
+  const std::string plain = withoutQuotes(dataset.cloud.fields, expression);
+  const auto formula = findFormula(dataset, plain, options);
   if (!formula)
-    return expression;
+    return plain;
   const StepTimer timer(report, "derived_fields");
   std::uint64_t undefined = 0;
   setField(dataset,

@@ -2,6 +2,7 @@
 #include "expressions/derived_source.h"
 
 #include "expressions/evaluation.h"
+#include "expressions/operand_names.h"
 
 namespace pcl_uvol {
 
@@ -10,10 +11,10 @@ DerivedSource::DerivedSource(PointSource& source,
                              unsigned threads)
     : source_(source)
     , header_(source.getHeader())
-    , field_(expression)
+    , field_(withoutQuotes(header_.cloud.fields, expression))
     , formula_(findFormula(
           header_,
-          expression,
+          field_,
           {threads, "from points that are read block by block: leave out -max-memory"}))
     , threads_(threads)
 {

@@ -139,6 +139,22 @@ makeFieldOperand(const Fields& fields,
   return operand;
 }
 
+std::string
+withoutQuotes(const Fields& fields, const std::string& expression)
+{
+  const std::string_view text = trimmed(expression);
+  const std::size_t end = text.empty() ? 0 : text.find('"', 1);
+  if (text.empty() || text[0] != '"' || end == std::string_view::npos)
+    return expression;
+  const std::string name(text.substr(1, end - 1));
+  const std::string_view behind = trimmed(text.substr(end + 1));
+  const bool is_component =
+      !behind.empty() && behind.front() == '[' && behind.find(']') + 1 == behind.size();
+  return !findComponents(fields, name).empty() && (behind.empty() || is_component)
+             ? name + std::string(behind)
+             : expression;
+}
+
 std::optional<Derivative>
 findDerivative(const std::string& name)
 {

@@ -35,6 +35,12 @@ makeFieldOperand(const std::vector<pcl::PCLPointField>& fields,
                  const std::array<double, 3>& origin,
                  const std::string& name);
 
+/** The name of a field that an expression is in quotation marks, with its component:
+ * "\"T, K\"" -> "T, K"; other expressions as they are. */
+std::string
+withoutQuotes(const std::vector<pcl::PCLPointField>& fields,
+              const std::string& expression);
+
 /** The derivative that a function of that name is. */
 std::optional<Derivative>
 findDerivative(const std::string& name);

@@ -71,12 +71,15 @@ TEST(ScalarField, ExactNamesComeFirst)
   const auto dataset = makeDataset({{"a[1]", Type::INT32},
                                     {"|b|", Type::INT32},
                                     {" c", Type::INT32},
+                                    {"e, m", Type::INT32},
                                     {"d [m/s]", Type::INT32, 2}},
                                    1,
                                    3);
   EXPECT_EQ(ScalarField(dataset.cloud.fields, "a[1]").getName(), "a[1]");
   EXPECT_FALSE(ScalarField(dataset.cloud.fields, "|b|").isLength());
   EXPECT_EQ(ScalarField(dataset.cloud.fields, " c").getName(), " c");
+  EXPECT_EQ(ScalarField(dataset.cloud.fields, "e, m").getName(), "e, m");
+  EXPECT_EQ(1u, ScalarField(dataset.cloud.fields, "|e, m|").getComponents().size());
   const ScalarField component(dataset.cloud.fields, "d [m/s][1]");
   EXPECT_EQ(component.getComponents().front().offset,
             dataset.cloud.fields.back().offset + 4);

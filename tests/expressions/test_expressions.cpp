@@ -127,6 +127,25 @@ TEST(Expressions, NamesThatLookLikeExpressions)
   EXPECT_EQ(compute("100*Cu%"), (Values{50.0, 25.0}));
 }
 
+std::string
+nameOf(const std::string& expression)
+{
+  Dataset dataset = makeDataset();
+  Report report;
+  return addDerivedField(dataset, expression, {}, report);
+}
+
+TEST(Expressions, QuotesStayOutOfNamesUnlessTheyAreNeeded)
+{
+  EXPECT_EQ("x velocity", nameOf("\"x velocity\""));
+  EXPECT_EQ("x velocity", nameOf(" \"x velocity\" "));
+  EXPECT_EQ("rho*u", nameOf("\"rho*u\""));
+  EXPECT_EQ("v[2]", nameOf("\"v\"[2]"));
+  EXPECT_EQ("x velocity*2", nameOf("\"x velocity\"*2"));
+  EXPECT_EQ("abs(rho*u)", nameOf("abs(\"rho*u\")"));
+  EXPECT_EQ("\"rho*u\"*2", nameOf("\"rho*u\"*2"));
+}
+
 TEST(Expressions, TheFieldIsCalledAsItIsWritten)
 {
   Dataset dataset = makeDataset();

@@ -79,6 +79,34 @@ TEST_F(UvolViewer, TheToolSavesWhatItShows)
   expectSame(read("gl.png"));
 }
 
+/** Expressions are computed at each surface, as uvol_isosurface does it. */
+TEST_F(UvolViewer, IsosurfacesAreColoredByExpressions)
+{
+  pcl_uvol::saveDataset("volume.ply", makeVolume());
+  const std::string look = " -view front -size 240x180 -background white";
+  for (const std::string color : {"' log10(x+2)'", "'sqrt(error+intensity^2)'"}) {
+    const auto result =
+        runCommand("uvol_viewer volume.ply -field intensity -iso 0.5 -color " + color +
+                   " -screenshot shown.png" + look);
+    EXPECT_EQ(0, result.exit_code) << result.err;
+    ASSERT_EQ(
+        0,
+        runCommand("uvol_isosurface volume.ply a.ply -field intensity -iso 0.5 && "
+                   "uvol_render a.ply same.png -color " +
+                   color + look)
+            .exit_code);
+    const int colored = countColored(read("same.png"));
+    EXPECT_GT(colored, 1000);
+    EXPECT_NEAR(colored, countColored(read("shown.png")), 0.1 * colored);
+  }
+  const auto wrong =
+      runCommand("uvol_viewer volume.ply -field intensity -iso 0.5 -color 'log10(q)' "
+                 "-screenshot wrong.png" +
+                 look);
+  EXPECT_EQ(1, wrong.exit_code);
+  EXPECT_NE(std::string::npos, wrong.err.find("There is no field 'q'")) << wrong.err;
+}
+
 TEST_F(UvolViewer, WrongUseIsOneSentence)
 {
   pcl_uvol::saveDataset("volume.ply", makeVolume());

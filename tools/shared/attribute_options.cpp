@@ -53,7 +53,7 @@ AttributeOptions::addFields(const Options& options,
                             pcl_uvol::Dataset& dataset,
                             pcl_uvol::Report& report)
 {
-  names_ = parseNames("attributes", text_);
+  names_ = parseFieldNames("attributes", text_, dataset);
   for (std::string& name : names_) {
     addField(dataset, name, options, report);
     pcl_uvol::refuseNames(dataset, name);

@@ -96,6 +96,29 @@ loadPoints(const std::string& path,
   return dataset;
 }
 
+std::vector<std::string>
+parseFieldNames(const std::string& option,
+                const std::string& value,
+                const pcl_uvol::Dataset& points)
+{
+  const std::vector<std::string> parts = parseNames(option, value);
+  std::vector<std::string> names;
+  for (std::size_t first = 0; first < parts.size();) {
+    std::string joined = parts[first], name = joined;
+    std::size_t next = first + 1;
+    for (std::size_t i = next; i < parts.size(); ++i) {
+      joined += ',' + parts[i];
+      if (!pcl_uvol::findField(points.cloud.fields, joined))
+        continue;
+      name = joined;
+      next = i + 1;
+    }
+    names.push_back(name);
+    first = next;
+  }
+  return names;
+}
+
 namespace {
 
 void

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace uvol_tools {
 
@@ -51,6 +52,14 @@ loadPoints(const std::string& path,
            const pcl_uvol::LoadOptions& options = {},
            const std::string& where = "",
            unsigned threads = 0);
+
+/** \brief Names of fields joined by commas, as parseNames() reads them. Where a field
+ * has several parts with the commas between them as its name, they are that one name.
+ * \throws UsageError that names the option */
+std::vector<std::string>
+parseFieldNames(const std::string& option,
+                const std::string& value,
+                const pcl_uvol::Dataset& points);
 
 /** \brief Make sure that samples have the field that an option names, see
  * addDerivedField.

@@ -2,6 +2,7 @@
 #include "shared/view_options.h"
 
 #include "charts/color_bar.h"
+#include "common/numbers.h"
 #include "common/records.h"
 #include "expressions/formula.h"
 #include "expressions/memory_need.h"
@@ -281,7 +282,13 @@ ViewOptions::getSupersampling() const
 std::string
 ViewOptions::colorField(const pcl_uvol::CloudView& cloud) const
 {
-  return pcl_uvol::resolveColor(cloud, color_);
+  const std::string field = pcl_uvol::resolveColor(cloud, color_);
+  if (pcl_uvol::findField(cloud.fields, field))
+    return field;
+  // What addColor() calls an expression, where that was done to another surface.
+  std::string name(pcl_uvol::trimmed(field));
+  name.erase(std::remove(name.begin(), name.end(), '"'), name.end());
+  return pcl_uvol::findField(cloud.fields, name) ? name : field;
 }
 
 pcl_uvol::ColorMapping

@@ -177,7 +177,7 @@ InterpolationOptions::resolve(const Options& options,
   else if (fields_ == "all" && pcl_uvol::findField(fields, "all") == nullptr)
     parameters.fields = pcl_uvol::listScalars(pcl_uvol::listNumberFields(samples));
   else
-    parameters.fields = parseNames("field", fields_);
+    parameters.fields = parseFieldNames("field", fields_, samples);
   for (std::string& field : parameters.fields) {
     addField(samples, field, options, report);
     pcl_uvol::refuseNames(samples, field);

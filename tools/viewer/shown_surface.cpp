@@ -93,6 +93,7 @@ ExtractedSurface
 makeShown(pcl_uvol::IsosurfaceResult result,
           const SurfaceRequest& request,
           const Eigen::Vector3d& factors,
+          const ShownSurface::AddColor& add_color,
           unsigned threads,
           const pcl_uvol::ProgressCallback& progress)
 {
@@ -100,6 +101,8 @@ makeShown(pcl_uvol::IsosurfaceResult result,
   shown.report = std::move(result.report);
   shown.report.progress = nullptr; // that of the worker
   shown.triangles = std::move(result.triangles);
+  if (result.surface.cloud.width > 0 && add_color)
+    add_color(result.surface, shown.report);
   if (result.surface.cloud.width > 0)
     shown.whole =
         pcl::make_shared<pcl::PCLPointCloud2>(std::move(result.surface.cloud));
@@ -135,7 +138,8 @@ findRange(const pcl::PCLPointCloud2& points, const std::string& name)
 ShownSurface::ShownSurface(pcl_uvol::Dataset dataset,
                            const std::string& field,
                            unsigned threads,
-                           const Eigen::Vector3d& factors)
+                           const Eigen::Vector3d& factors,
+                           const AddColor& add_color)
     : origin_(dataset.origin)
     , factors_(factors)
     , field_(field)
@@ -155,13 +159,15 @@ ShownSurface::ShownSurface(pcl_uvol::Dataset dataset,
     throw InvalidArgument("All values of " + field_ +
                           " are equal: there is no isosurface between them.");
   const auto pipeline = std::make_shared<DraftingPipeline>(samples, field, threads);
-  worker_ = std::make_unique<SurfaceWorker>(
-      [pipeline, factors, threads](const SurfaceRequest& request,
-                                   unsigned thinning,
-                                   const pcl_uvol::ProgressCallback& progress) {
+  worker_ =
+      std::make_unique<SurfaceWorker>([pipeline, factors, add_color, threads](
+                                          const SurfaceRequest& request,
+                                          unsigned thinning,
+                                          const pcl_uvol::ProgressCallback& progress) {
         return makeShown(pipeline->run(request, thinning, progress),
                          request,
                          factors,
+                         add_color,
                          threads,
                          progress);
       });

@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,14 +25,20 @@ class ShownSurface {
 public:
   using Cloud = pcl::PCLPointCloud2;
 
+  /** \brief Adds to each isosurface what it is coloured by; called in another thread.
+   */
+  using AddColor = std::function<void(pcl_uvol::Dataset&, pcl_uvol::Report&)>;
+
   /** \param field "": the points are the surface; else isosurfaces of that field
    * \param factors along the axes by which the surface is stretched
+   * \param add_color empty: isosurfaces have the fields of the samples only
    * \throws InvalidArgument for a cloud without points, an unknown field or one without
    * two finite values, and for splats that are to be stretched */
   ShownSurface(pcl_uvol::Dataset dataset,
                const std::string& field,
                unsigned threads,
-               const Eigen::Vector3d& factors = Eigen::Vector3d::Ones());
+               const Eigen::Vector3d& factors = Eigen::Vector3d::Ones(),
+               const AddColor& add_color = nullptr);
 
   /** \brief "" for a surface given as points. */
   const std::string&

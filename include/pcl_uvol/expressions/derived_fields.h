@@ -71,8 +71,9 @@ struct PCL_UVOL_EXPORTS DerivedFieldOptions {
  * Derivatives are per unit of length, of the fits of detail::computeDerivatives.
  *
  * What an expression gives is added as a float64 field of the expression's own text,
- * without blanks around it. It is NaN where a field that it needs is missing, and where
- * the result is no finite number.
+ * without blanks around it, and without double quotes where it means the same without
+ * them. It is NaN where a field that it needs is missing, and where the result is no
+ * finite number. A field's name between double quotes is that field.
  * \param dataset gets the field
  * \param expression name of a field, or what to compute
  * \param options threads, the box, and why there are no derivatives
