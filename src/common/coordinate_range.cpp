@@ -81,6 +81,7 @@ CoordinateRange::add(const CoordinateRange& other)
     axes_[axis].add(other.axes_[axis]);
   sketch_.add(other.sketch_);
   count_ += other.count_;
+  beyond_ += other.beyond_;
 }
 
 std::vector<double>
@@ -95,13 +96,13 @@ CoordinateRange::getSketch(std::size_t axis) const
 CoordinateRange::Point
 CoordinateRange::findOrigin() const
 {
+  if (count_ == 0 && beyond_ > 0)
+    throw InvalidArgument("The coordinates are larger than float can hold (3.4e38): "
+                          "scale the coordinates down.");
   std::array<NumberRange, 3> ranges;
   double extent = 0.0, largest = 0.0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     ranges[axis] = findTypicalRange(axes_[axis], getSketch(axis));
-    if (ranges[axis].getLargest() > std::numeric_limits<float>::max())
-      throw InvalidArgument("A coordinate is larger than float can hold (3.4e38): "
-                            "scale the coordinates down.");
     extent = std::max(extent, ranges[axis].getExtent());
     largest = std::max(largest, ranges[axis].getLargest());
   }
@@ -116,6 +117,18 @@ CoordinateRange::findOrigin() const
       origin[axis] = roundedMiddle(range, scale);
   }
   return origin;
+}
+
+std::string
+CoordinateRange::describeBeyond() const
+{
+  return beyond_ == 0
+             ? std::string()
+             : std::to_string(beyond_) +
+                   (beyond_ == 1 ? " point has" : " points have") +
+                   " a coordinate of 3.4e38 or more, which float does not hold. " +
+                   (beyond_ == 1 ? "It counts as a point" : "They count as points") +
+                   " without a position.";
 }
 
 std::string

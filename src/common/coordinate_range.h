@@ -21,16 +21,20 @@ class PCL_UVOL_EXPORTS CoordinateRange {
 public:
   using Point = std::array<double, 3>;
 
-  /** \brief Take a point; a coordinate that is not finite counts for nothing. */
+  /** \brief Take a point; a coordinate that is not finite counts for nothing, and so
+   * does one that is not a place, see placeOrNaN(). */
   void
   add(const Point& point)
   {
-    bool is_finite = true;
+    bool is_finite = true, is_beyond = false;
     for (std::size_t axis = 0; axis < 3; ++axis)
-      if (std::isfinite(point[axis]))
+      if (std::isfinite(placeOrNaN(point[axis])))
         axes_[axis].add(point[axis]);
-      else
+      else {
         is_finite = false;
+        is_beyond = is_beyond || std::isfinite(point[axis]);
+      }
+    beyond_ += is_beyond;
     if (!is_finite)
       return;
     ++count_;
@@ -43,9 +47,13 @@ public:
 
   /** \brief What setCoordinates() promises of an origin. A few points far from the
    * others, such as (0, 0, 0) for a position that is not known, have no say.
-   * \throws InvalidArgument for coordinates beyond float */
+   * \throws InvalidArgument if all points have coordinates beyond float */
   Point
   findOrigin() const;
+
+  /** \brief A sentence about points with coordinates beyond float; else empty. */
+  std::string
+  describeBeyond() const;
 
   /** \brief A sentence where float, relative to that origin, rounds coordinates by more
    * than a thousandth of the distance between neighbours, which is estimated from some
@@ -60,7 +68,8 @@ private:
 
   std::array<NumberRange, 3> axes_;
   Sketch<3> sketch_;
-  std::uint64_t count_ = 0; ///< finite points
+  std::uint64_t count_ = 0;  ///< finite points
+  std::uint64_t beyond_ = 0; ///< points with a finite coordinate that is not a place
 };
 
 } // namespace pcl_uvol

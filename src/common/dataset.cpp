@@ -71,7 +71,7 @@ setCoordinates(Dataset& dataset, const std::vector<double>& xyz)
   cloud = repack(cloud, false);
   for (std::size_t i = 0; i < count; ++i)
     for (std::size_t axis = 0; axis < 3; ++axis)
-      putCoordinate(xyz[3 * i + axis] - dataset.origin[axis],
+      putCoordinate(placeOrNaN(xyz[3 * i + axis]) - dataset.origin[axis],
                     axis,
                     cloud.data.data() + i * cloud.point_step);
 }

@@ -4,6 +4,7 @@
 
 #include <pcl_uvol/common/export.h>
 
+#include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
@@ -13,6 +14,18 @@ namespace pcl_uvol {
 /** \brief Distance from a number to its float. */
 PCL_UVOL_EXPORTS double
 floatError(double number);
+
+/** \brief A coordinate, or NaN for one that float does not hold, and for the largest
+ * float: programs write these where they have no position. Infinities stay. */
+inline double
+placeOrNaN(double coordinate)
+{
+  const double magnitude = std::abs(coordinate);
+  return magnitude >= std::numeric_limits<float>::max() &&
+                 magnitude <= std::numeric_limits<double>::max()
+             ? std::numeric_limits<double>::quiet_NaN()
+             : coordinate;
+}
 
 /** \brief Where numbers lie, and what float loses of them. */
 struct PCL_UVOL_EXPORTS NumberRange {

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <unordered_map>
@@ -211,6 +212,19 @@ RecordLayout::addTo(CoordinateRange& range,
 }
 
 void
+RecordLayout::removeNonPlaces(std::size_t count, std::uint8_t* points) const
+{
+  const std::size_t step = header_.cloud.point_step;
+  for (std::size_t i = 0; i < count; ++i, points += step)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      float coordinate;
+      std::memcpy(&coordinate, points + axis * sizeof(coordinate), sizeof(coordinate));
+      if (std::abs(coordinate) == std::numeric_limits<float>::max())
+        putCoordinate(placeOrNaN(static_cast<double>(coordinate)), axis, points);
+    }
+}
+
+void
 RecordLayout::convert(const std::uint8_t* records,
                       std::size_t count,
                       std::uint8_t* points) const
@@ -219,9 +233,12 @@ RecordLayout::convert(const std::uint8_t* records,
   for (std::size_t i = 0; i < count; ++i, records += record_step_, points += step) {
     copyRuns(runs_, records, points);
     for (std::size_t axis = 0; axis < 3 && !floats_; ++axis)
-      putCoordinate(axes_[axis].read(records) - header_.origin[axis], axis, points);
+      putCoordinate(
+          placeOrNaN(axes_[axis].read(records)) - header_.origin[axis], axis, points);
     if (point_bytes_ < step)
       std::memset(points + point_bytes_, 0, step - point_bytes_);
+    if (floats_)
+      removeNonPlaces(1, points);
   }
 }
 
@@ -232,7 +249,9 @@ RecordLayout::describeMerging(const std::uint8_t* records, std::size_t count) co
     return "";
   const auto position_at = [&](std::size_t i) -> std::array<double, 3> {
     const std::uint8_t* const record = records + i * record_step_;
-    return {axes_[0].read(record), axes_[1].read(record), axes_[2].read(record)};
+    return {placeOrNaN(axes_[0].read(record)),
+            placeOrNaN(axes_[1].read(record)),
+            placeOrNaN(axes_[2].read(record))};
   };
   return describe(findMergedPositions(count, position_at, header_.origin));
 }
@@ -241,9 +260,10 @@ std::array<double, 3>
 findOrigin(const CoordinateRange& range, std::vector<std::string>& notes)
 {
   const std::array<double, 3> origin = range.findOrigin();
-  const std::string note = range.describeRounding(origin);
-  if (!note.empty())
-    notes.push_back(note);
+  for (const std::string& note :
+       {range.describeBeyond(), range.describeRounding(origin)})
+    if (!note.empty())
+      notes.push_back(note);
   return origin;
 }
 
@@ -272,6 +292,7 @@ makeDataset(pcl::PCLPointCloud2&& records, RecordInfo info)
   if (layout.isIdentity()) {
     dataset.cloud.data = std::move(records.data);
     resizePoints(dataset.cloud, count);
+    layout.removeNonPlaces(count, dataset.cloud.data.data());
     return dataset;
   }
   const std::string merging = layout.describeMerging(records.data.data(), count);

@@ -146,6 +146,11 @@ public:
   void
   convert(const std::uint8_t* records, std::size_t count, std::uint8_t* points) const;
 
+  /** \brief Give points NaN for coordinates that are not places, see placeOrNaN().
+   * \param points that float records became, as they were */
+  void
+  removeNonPlaces(std::size_t count, std::uint8_t* points) const;
+
 private:
   Dataset header_;
   std::vector<ByteRun> runs_;
@@ -175,7 +180,8 @@ resizePoints(pcl::PCLPointCloud2& cloud, std::size_t count);
 
 /** \brief The dataset that records make.
  * \param info what else is known of them; the fields are those of the records
- * \throws InvalidArgument without x, y, z, or for a coordinate beyond float */
+ * \throws InvalidArgument without x, y, z, or if all points have coordinates beyond
+ * float */
 PCL_UVOL_EXPORTS Dataset
 makeDataset(pcl::PCLPointCloud2&& records, RecordInfo info = {});
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/netcdf_places.h"
 
+#include "common/number_range.h"
 #include "common/numbers.h"
 #include "common/printable.h"
 #include "io/files.h"
@@ -112,7 +113,7 @@ measure(const SampleVariable& variable, std::uint64_t size, AxisMap near)
     numbers.resize(std::min<std::uint64_t>(block_numbers, size - first));
     variable.read(first, numbers.size(), numbers.data());
     for (const double number : numbers) {
-      if (!std::isfinite(number))
+      if (!std::isfinite(placeOrNaN(number)))
         continue;
       if (is_first)
         near.origin = number;
@@ -179,7 +180,7 @@ PlaceVariables::list() const
 double
 AxisMap::apply(double number) const
 {
-  const double difference = number - origin;
+  const double difference = placeOrNaN(number) - origin;
   return factor * (is_longitude ? std::remainder(difference, 360.0) : difference);
 }
 

@@ -160,8 +160,10 @@ PointReader::findOrigin()
 void
 PointReader::read(std::size_t count, std::uint8_t* points)
 {
-  if (layout_.isIdentity())
-    return source_->read(count, points);
+  if (layout_.isIdentity()) {
+    source_->read(count, points);
+    return layout_.removeNonPlaces(count, points);
+  }
   readRecords(count, [&](const std::uint8_t* records, std::size_t taken) {
     layout_.convert(records, taken, points);
     points += taken * layout_.getHeader().cloud.point_step;

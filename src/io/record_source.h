@@ -184,7 +184,7 @@ public:
   }
 
   /** \brief Look at all coordinates if their origin needs that.
-   * \throws InvalidArgument for a coordinate beyond float
+   * \throws InvalidArgument if all points have coordinates beyond float
    * \throws IOError */
   void
   findOrigin();
@@ -208,8 +208,8 @@ private:
  * \param[out] end gets what follows them in the file
  * \param progress told of "read"; empty: nobody is
  * \throws IOError
- * \throws InvalidArgument without x, y, z, for a coordinate beyond float, and for more
- * points than PCL can number */
+ * \throws InvalidArgument without x, y, z, if all points have coordinates beyond float,
+ * and for more points than PCL can number */
 Dataset
 readWhole(std::unique_ptr<RecordSource> source,
           const ProgressCallback& progress,

@@ -60,7 +60,8 @@ struct PCL_UVOL_EXPORTS Dataset {
  * of that axis (of the cloud, for an axis that is flat beside it).
  * \param xyz three numbers per point
  * \param dataset gets the fields
- * \throws InvalidArgument unless there are three per point, none beyond float */
+ * \throws InvalidArgument unless there are three per point, or if all points have
+ * coordinates beyond float; a few that have count as points without a position */
 PCL_UVOL_EXPORTS void
 setCoordinates(Dataset& dataset, const std::vector<double>& xyz);
 
