@@ -241,9 +241,10 @@ addPositions(const std::string& path,
         "upper corner", joined(positions.upper, " "), toNumbers(positions.upper));
     const std::vector<double> spacing{
         positions.spacing_min, positions.spacing_median, positions.spacing_max};
-    facts.push_back(
-        Fact("distance to the nearest sample (min, median, max)", joined(spacing, ", "))
-            .withoutJson());
+    if (positions.non_finite + positions.duplicates + 1 < dataset.cloud.width)
+      facts.push_back(Fact("distance to the nearest sample (min, median, max)",
+                           joined(spacing, ", "))
+                          .withoutJson());
     facts.emplace_back("spacing",
                        "",
                        Fact::Members{{"min", {spacing[0]}},

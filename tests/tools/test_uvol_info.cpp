@@ -91,6 +91,50 @@ TEST_F(UvolInfo, DegenerateCloudsAreTold)
   expectTold(runOn("x,y,z\n0,0,0\n0,0,0\n"), {"duplicates"});
 }
 
+/** The numbers x, y and z of points in a line, a sheet or a volume. */
+std::string
+latticeOf(int width, int height, int depth, double shift)
+{
+  std::string text;
+  for (int i = 0; i < width; ++i)
+    for (int j = 0; j < height; ++j)
+      for (int k = 0; k < depth; ++k)
+        text += std::to_string(i + shift) + "," + std::to_string(j) + "," +
+                std::to_string(k) + ",1\n";
+  return text;
+}
+
+TEST_F(UvolInfo, ReportsTheSharesOfTheSampling)
+{
+  const std::string header = "x,y,z,a\n";
+  expectTold(runOn(header + latticeOf(10, 10, 10, 0.0)),
+             {"sampling: all around 100 %; spacing 1 to 1\n"});
+  const auto mixed =
+      runOn(header + latticeOf(8, 8, 8, 0.0) + latticeOf(400, 1, 1, 1000.0));
+  expectTold(mixed, {"sampling: all around 5", " %, lines 4", " (all around)\n"});
+  for (const char* const text :
+       {"0.4,0.4,0.4,1\n", "0.4,0.4,0.4,1\n0.4,0.4,0.4,2\n"}) {
+    const auto single = runOn(header + text);
+    expectTold(single, {"sampling: one place, without a spacing\n"});
+    EXPECT_EQ(std::string::npos, single.out.find("distance to the nearest"));
+  }
+}
+
+TEST_F(UvolInfo, CountsPointsWhosePositionIsTheLargestFloat)
+{
+  for (const char* const place : {"3.4028235e38", "-3.4028235e+38", "1e300"}) {
+    const auto result = runOn("x,y,z,a\n0,0,0,1\n1,0,0,1\n0,1,0,1\n" +
+                              std::string(place) + ",0,0,1\n");
+    expectTold(result, {"upper corner: 1 1 0", "non finite: 1"});
+    expectTold(result,
+               {"1 point has a coordinate of 3.4e38 or more, which float does not "
+                "hold. It counts as a point without a position."});
+  }
+  const auto refused = runOn("x,y,z,a\n1e39,0,0,1\n2e39,0,0,1\n");
+  EXPECT_EQ(1, refused.exit_code);
+  EXPECT_NE(std::string::npos, refused.err.find("larger than float can hold"));
+}
+
 TEST_F(UvolInfo, JsonIsOneObject)
 {
   const auto result = runOn(cloud, "-json");

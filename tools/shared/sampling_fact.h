@@ -7,8 +7,8 @@
 
 namespace uvol_tools {
 
-/** \brief "lines, spacing 1.3 along, 24 across (92 % of the samples)", and the shares
- * and spacings as numbers. */
+/** \brief "lines 92 %, all around 8 %; spacing 1.3 along, 24 across (lines)", and the
+ * shares and spacings as numbers. The spacing is that of the largest share. */
 Fact
 describeSampling(const pcl_uvol::SamplingSummary& sampling);
 
