@@ -18,6 +18,10 @@ namespace {
 /** Share of a figure: one that is known no better is hardly one. */
 constexpr double large_error = 1.0 / 3.0;
 
+/** Share of the samples beyond the isovalue: of smooth fields those inside of the mesh
+ * differ from them by one or two in a hundred. */
+constexpr double many_missed = 0.1;
+
 void
 warnOfOpen(const SurfaceFigures& figures, Report& report)
 {
@@ -47,6 +51,25 @@ warnOfVague(const SurfaceFigures& figures, Report& report)
         std::to_string(figures.isovalues.size()) +
         " surfaces are not known to better than a third: vertices lie that far from "
         "where the surface may be.");
+}
+
+/** Compares the samples inside with those beyond the isovalue. */
+void
+warnOfMissedSamples(const SurfaceFigures& figures, Report& report)
+{
+  for (const PieceMeasures& all : figures.isovalues) {
+    if (all.rims > 0 || all.triangles == 0 || !all.samples_beyond)
+      continue;
+    const auto beyond = static_cast<double>(*all.samples_beyond);
+    if (std::abs(static_cast<double>(all.samples) - beyond) <= many_missed * beyond)
+      continue;
+    report.warnings.push_back(
+        "At " + describeNumbers({all.isovalue})[0] + " the surface encloses " +
+        std::to_string(all.samples) + " samples, and " +
+        std::to_string(*all.samples_beyond) +
+        " have values beyond the isovalue: the mesh is coarser than clumps of few "
+        "samples, or leaves them out. For masses, take the sum beyond the isovalue.");
+  }
 }
 
 /** Whether all pieces of a closed surface have no volume, nor an error of one. */
@@ -112,6 +135,7 @@ warnOfMeasures(const SurfaceFigures& figures, Report& report)
         "encloses nothing. If all samples are in one plane, the isosurface is a "
         "curve.");
   warnOfVague(figures, report);
+  warnOfMissedSamples(figures, report);
   for (const PieceMeasures& all : figures.isovalues)
     if (all.volume.value < -all.volume.error) {
       report.warnings.push_back(

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <sstream>
@@ -98,6 +99,114 @@ TEST_F(MeasureTool, WritesATableOfSurfacesAndPieces)
   EXPECT_NEAR(4.0 / 3.0 * M_PI * 0.343, volumes[0], 1e-3);
   for (const double half_axis : fieldOf(table, "half_axis_3"))
     EXPECT_TRUE(std::abs(half_axis - 0.7) < 1e-3 || std::abs(half_axis - 0.5) < 1e-3);
+}
+
+/** A made or real file with an awkward property; empty where these are not there. */
+std::string
+findWildFile(const std::string& name)
+{
+  const std::string path = uvol_test::dataFolder() + "/../wild/" + name;
+  return std::ifstream(path).good() ? path : "";
+}
+
+TEST_F(MeasureTool, NamesDebrisAndLeavesItOut)
+{
+  const std::string debris = findWildFile("made/c29_debris.csv");
+  if (debris.empty())
+    GTEST_SKIP() << "the folder of awkward files is not there";
+  const Json all = reportOf(debris + " -field rho -iso 0.8");
+  EXPECT_GE(all["surfaces"]["volume"].get<double>(), 0.0);
+  EXPECT_NE(std::string::npos, all["warnings"].dump().find("2 of 3 pieces")) << all;
+  const Json body = reportOf(debris + " -field rho -iso 0.8 -drop-unsure")["surfaces"];
+  EXPECT_NEAR(0.503, body["area"].get<double>(), 0.001);
+  EXPECT_NEAR(0.0335, body["volume"].get<double>(), 0.0001);
+}
+
+TEST_F(MeasureTool, PrintsNoNumberThatIsNotFiniteOrWrapped)
+{
+  std::ostringstream csv; // a disc in a plane
+  csv << "x,y,z,f\n";
+  uvol_test::Random random(4);
+  for (int i = 0; i < 1200; ++i) {
+    const double x = random.uniform(), y = random.uniform();
+    csv << x << ',' << y << ",53," << std::hypot(x - 0.5, y - 0.5) << '\n';
+  }
+  uvol_test::writeFile(in_, csv.str());
+  std::vector<std::string> inputs = {in_ + " -field f"};
+  for (const char* const name : {"made/c22_coplanar.csv -field f",
+                                 "made/c26_axes_differ.csv -field f -scale auto"})
+    if (!findWildFile(std::string(name).substr(0, std::string(name).find(' '))).empty())
+      inputs.push_back(uvol_test::dataFolder() + "/../wild/" + name);
+  for (const std::string& input : inputs)
+    for (const char* const form : {"", " -json"}) {
+      const CommandResult result =
+          runCommand("uvol_measure " + input + " -iso 0.3 -outside higher" + form);
+      EXPECT_EQ(0, result.exit_code) << result.err;
+      for (const char* const wrong : {" nan", "-nan", " inf", "1844674407"})
+        EXPECT_EQ(std::string::npos, result.out.find(wrong)) << result.out;
+    }
+  const Json flat = reportOf(in_ + " -field f -iso 0.3 -outside higher");
+  EXPECT_EQ(0.0, flat["surfaces"]["volume"].get<double>());
+  EXPECT_EQ(0.0, flat["surfaces"]["samples"].get<double>());
+  EXPECT_NE(std::string::npos, flat["warnings"].dump().find("surfaces have no volume"));
+}
+
+TEST_F(MeasureTool, SumsSamplesBeyondTheIsovalue)
+{
+  const Json open = reportOf(in_ + " -field rho -iso 0.5")["surfaces"];
+  const double beyond = open["samples_beyond"];
+  EXPECT_EQ(0.5 * beyond, open["mass_beyond_sum"].get<double>());
+  EXPECT_NEAR(beyond, open["samples"].get<double>(), 0.02 * beyond);
+  ASSERT_EQ(
+      0,
+      runCommand("uvol_isosurface " + in_ + " " + mesh_ + " -field rho -iso 0.5 -mesh")
+          .exit_code);
+  const Json known = reportOf(mesh_ + " -samples " + in_ + " -field rho")["surfaces"];
+  EXPECT_EQ(beyond, known["samples_beyond"].get<double>());
+  const Json unknown = reportOf(mesh_ + " -samples " + in_)["surfaces"];
+  EXPECT_FALSE(unknown.contains("samples_beyond"));
+}
+
+TEST_F(MeasureTool, MeasuresThroughAPeriodicBox)
+{
+  // A ball about the corner of a box from -1 to 1: rho is higher near the corner.
+  uvol_test::Random random(6);
+  std::ostringstream csv;
+  csv << "x,y,z,rho,mass\n";
+  for (int i = 0; i < 8000; ++i) {
+    double sq_radius = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double x = 2.0 * random.uniform() - 1.0;
+      csv << x << ',';
+      sq_radius += std::pow(1.0 - std::abs(x), 2);
+    }
+    csv << 1.0 - std::sqrt(sq_radius) << ",0.5\n";
+  }
+  uvol_test::writeFile(in_, csv.str());
+  const Json ball = reportOf(in_ + " -field rho -iso 0.4 -periodic 2,2,2");
+  const double volume = 4.0 / 3.0 * M_PI * 0.216;
+  const Json& surfaces = ball["surfaces"];
+  EXPECT_NEAR(volume, surfaces["volume"].get<double>(), 0.005 * volume);
+  EXPECT_EQ(0, surfaces["rims"]);
+  EXPECT_EQ(1, ball["pieces"]["piece"].is_array() ? 0 : 1);
+  EXPECT_NEAR(surfaces["mass_beyond_sum"].get<double>(),
+              surfaces["mass_sample_sum"].get<double>(),
+              0.03 * surfaces["mass_beyond_sum"].get<double>());
+  EXPECT_EQ(2, runCommand("uvol_measure " + in_ + " -iso 0.4 -periodic 2,2").exit_code);
+  EXPECT_EQ(1,
+            runCommand("uvol_measure " + in_ + " -field rho -iso 0.4 -periodic header")
+                .exit_code);
+}
+
+TEST_F(MeasureTool, SumsMassesOfASnapshotThroughItsBox)
+{
+  const std::string snapshot = findWildFile("real/gadget4_lcdm_gas_snapshot_002.hdf5");
+  if (snapshot.empty())
+    GTEST_SKIP() << "the folder of awkward files is not there";
+  const Json all =
+      reportOf(snapshot + " -field Density -iso 1e-9 -periodic header")["surfaces"];
+  EXPECT_NEAR(98495.0, all["Masses_beyond_sum"].get<double>(), 1.0);
+  EXPECT_NEAR(98495.0, all["Masses_sample_sum"].get<double>(), 500.0);
 }
 
 TEST_F(MeasureTool, DrawsCurves)
