@@ -214,9 +214,8 @@ run(int argc, char** argv, uvol_tools::SeriesStep* step)
       "Tells a field given at scattered points anywhere between them, with its "
       "standard "
       "error.\nThe field support says what a value rests on: 1 samples all around, 2 a "
-      "gap of the sampling, 3 its rim, 4 outside of the data (no value: nan), 5 "
-      "samples "
-      "that do not determine the model, 6 no finite place.\nWrites pcd ply vtp csv, "
+      "gap of the sampling, 3 its rim, 5 samples that do not determine the model, 6 no "
+      "finite place, 7 outside of the data (no value: nan).\nWrites pcd ply vtp csv, "
       "planes and grids also as vti vts nrrd mha.");
   declare(options, arguments);
   uvol_tools::declareSeries(options);

@@ -27,7 +27,7 @@ class Answers:
         Per unit of length, with an axis of three at the end.
     support : numpy.ndarray of uint8
         What a value rests on: 1 samples all around, 2 a gap of the sampling, 3 its rim,
-        4 outside of the data, 5 samples that do not determine the model, 6 no place.
+        5 samples that do not determine the model, 6 no place, 7 outside of the data.
     report : dict
         Counts, milliseconds and warnings.
     parameters : dict

@@ -85,8 +85,16 @@ readExactValues(const CloudView& cloud,
 FieldSupport
 weaker(FieldSupport a, FieldSupport b)
 {
-  constexpr int rank[] = {0, 1, 3, 4, 5, 2, 6};
-  return rank[static_cast<int>(a)] < rank[static_cast<int>(b)] ? b : a;
+  constexpr FieldSupport ranked[] = {FieldSupport::Measured,
+                                     FieldSupport::Reduced,
+                                     FieldSupport::Bridged,
+                                     FieldSupport::Rim,
+                                     FieldSupport::Outside,
+                                     FieldSupport::Invalid};
+  const auto rank = [&](FieldSupport support) {
+    return std::find(std::begin(ranked), std::end(ranked), support);
+  };
+  return rank(a) < rank(b) ? b : a;
 }
 
 KdBox

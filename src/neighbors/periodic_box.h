@@ -107,13 +107,20 @@ cutAtWidestGap(const Dataset& samples, const PeriodicBox& box, unsigned threads)
 
 /** \brief How far beyond the faces images reach. */
 struct PeriodicReach {
+  /** Spacings of samples that fill the box evenly: the 64 nearest, which fits look at,
+   * fill a ball of 2.5; a mesh ends in caps where the images end, and a level set knows
+   * less of the field there. @{ */
+  static constexpr double of_fits = 3.0;
+  static constexpr double of_meshes = 5.0;
+  static constexpr double of_level_sets = 8.0;
+  /** @} */
+
   /** Factors per axis of the space that distances are measured in. */
   Position scale{{1.0f, 1.0f, 1.0f}};
   /** The number of nearest samples that every sample in the box has. */
   std::size_t neighbors = 64;
-  /** At least so many spacings of samples that fill the box evenly: 64 of them fill a
-   * ball of 2.5. */
-  double spacings = 3.0;
+  /** At least so many of these spacings. */
+  double spacings = of_fits;
   /** At least so far, in units of length of the stretched space. */
   double least = 0.0;
 };

@@ -15,7 +15,7 @@ SamplesInBox::SamplesInBox(Dataset& samples,
     return;
   PeriodicReach reach;
   reach.scale = toPosition(scale);
-  reach.spacings = 8.0; // a level set knows less of the field where it ends
+  reach.spacings = PeriodicReach::of_level_sets; // of all users, it asks for most
   const auto box = findPeriodicBox(samples, sides, report);
   images_ = addPeriodicImages(samples, box, reach, threads, report);
   before_ = std::move(samples);

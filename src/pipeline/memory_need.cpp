@@ -5,6 +5,7 @@
 #include "levelset/phi_cloud.h"
 #include "neighbors/exact_neighbors.h"
 #include "pipeline/gap_filling.h"
+#include "pipeline/periodic_surface.h"
 #include "surface/memory_need.h"
 #include <pcl_uvol/levelset/level_set_evolution.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
@@ -40,12 +41,11 @@ addLevelSets(const LevelSetParameters& parameters,
   }
 }
 
-/** Points with images over points: layers of some samples on both sides of an even
- * cube, as thick as makeImages() makes them. */
+/** Points with images over points: an even cube gets layers of images on both sides. */
 double
 imagesFactor(const IsosurfacePipelineParameters& parameters, double points)
 {
-  const double layers = parameters.smooth ? 16.0 : parameters.mesh ? 10.0 : 6.0;
+  const double layers = 2.0 * reachFor(parameters).spacings;
   double factor = 1.0;
   for (const double side : parameters.periodic)
     if (side > 0.0)

@@ -15,10 +15,6 @@
 namespace pcl_uvol {
 namespace {
 
-/** Spacings that images reach beyond the faces at least: fits take 2.5; a mesh ends in
- * caps there, and a level set knows less of the field where it ends. */
-constexpr double reach_of_fits = 3.0, reach_of_meshes = 5.0, reach_of_level_sets = 8.0;
-
 /** From places counted from the corner of one box to coordinates within another. */
 void
 movePoints(const PeriodicBox& cut, const PeriodicBox& box, Dataset& surface)
@@ -160,9 +156,9 @@ reachFor(const IsosurfacePipelineParameters& parameters)
 {
   PeriodicReach reach;
   reach.scale = toPosition(parameters.isosurface.scale);
-  reach.spacings = parameters.smooth ? reach_of_level_sets
-                   : parameters.mesh ? reach_of_meshes
-                                     : reach_of_fits;
+  reach.spacings = parameters.smooth ? PeriodicReach::of_level_sets
+                   : parameters.mesh ? PeriodicReach::of_meshes
+                                     : PeriodicReach::of_fits;
   return reach;
 }
 

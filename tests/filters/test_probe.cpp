@@ -136,7 +136,7 @@ TEST_F(VtkProbe, OutsideThereIsNoValueUnlessAskedFor)
   probe_->SetInputData(makePlane(30.0));
   probe_->Update();
   EXPECT_TRUE(std::isnan(arrayOf("density")->GetTuple1(0)));
-  EXPECT_EQ(arrayOf("support")->GetTuple1(0), 4.0);
+  EXPECT_EQ(arrayOf("support")->GetTuple1(0), 7.0);
   ASSERT_EQ(listener_.warnings.size(), 1u);
   EXPECT_NE(listener_.warnings[0].find("outside of the data"), std::string::npos);
   probe_->ExtrapolateOn();

@@ -6,6 +6,7 @@
 #include "support/environment.h"
 #include "support/interpolation_cases.h"
 #include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/common/point_types.h>
 #include <pcl_uvol/interpolation/field_interpolation.h>
 
 #include <gtest/gtest.h>
@@ -234,6 +235,19 @@ TEST_P(EveryModel, QueriesWithoutAPlaceAreCounted)
     EXPECT_EQ(result.support[i], FieldSupport::Invalid);
     EXPECT_TRUE(std::isnan(result.getValue(0, i)));
   }
+}
+
+/** A file of isopoints and one of answers may lie in one folder: a number that both
+ * have means the same. */
+TEST(FieldSupportNumbers, MeanOneThingInAllFiles)
+{
+  const auto number = [](auto support) { return static_cast<int>(support); };
+  EXPECT_EQ(number(FieldSupport::Measured), number(IsoSupport::Measured));
+  EXPECT_EQ(number(FieldSupport::Bridged), number(IsoSupport::Bridged));
+  EXPECT_EQ(number(FieldSupport::Rim), number(IsoSupport::Rim));
+  for (const FieldSupport support :
+       {FieldSupport::Reduced, FieldSupport::Invalid, FieldSupport::Outside})
+    EXPECT_GT(number(support), number(IsoSupport::Predicted));
 }
 
 TEST_P(EveryModel, FieldsMayMissDifferentSamples)

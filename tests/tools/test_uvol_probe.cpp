@@ -89,7 +89,7 @@ TEST_F(ProbeTool, PointsKeepTheirRowsAndColumns)
   EXPECT_NEAR(values[1], cubic(0.5, 0.75, 0.125), 1e-7);
   EXPECT_NEAR(waves[0], std::sin(1.75), 1e-4);
   EXPECT_TRUE(std::isnan(values[2]) && std::isnan(values[3]));
-  EXPECT_EQ(support, (Values{1, 1, 6, 4}));
+  EXPECT_EQ(support, (Values{1, 1, 6, 7}));
   EXPECT_EQ(fieldOf(result, "wave_error").size(), 4u);
   EXPECT_GT(report["sampling"]["volume"], 0.9);
   EXPECT_EQ(report["counts"]["invalid"], 1);

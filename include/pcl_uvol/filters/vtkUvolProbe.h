@@ -29,7 +29,7 @@ struct Report;
  * The output is the input with further arrays of points in double precision: the field,
  * its standard error (density_error), its gradient if asked for (density_gradient), and
  * support (unsigned char, a pcl_uvol::FieldSupport: 1 samples all around, 2 a gap, 3 a
- * rim, 4 outside, 5 samples that do not determine the model, 6 no place). Outside of
+ * rim, 5 samples that do not determine the model, 6 no place, 7 outside). Outside of
  * the samples values are NaN. Where the input has an array of such a name, the name
  * gets _2.
  *

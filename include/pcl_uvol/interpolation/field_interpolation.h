@@ -22,17 +22,17 @@
 
 namespace pcl_uvol {
 
-/** \brief What an interpolated value rests on. The first three are those of IsoSupport.
- */
+/** \brief What an interpolated value rests on. The first three are those of IsoSupport,
+ * no other number is: 4 is IsoSupport::Predicted. */
 enum class FieldSupport : std::uint8_t {
   Measured = 1, ///< samples all around
   Bridged = 2,  ///< in a gap of the sampling: samples around, but far
   Rim = 3,      ///< beside a wide cone without samples: border of a gap or of the cloud
-  Outside = 4,  ///< beside such a cone and far from the samples, or beyond their convex
-                ///< hull where the model ends there: no value unless extrapolated
   Reduced = 5,  ///< samples all around that do not determine the model, as on few
                 ///< planes: a simpler one
-  Invalid = 6   ///< no place: the coordinates are not finite, or too far out
+  Invalid = 6,  ///< no place: the coordinates are not finite, or too far out
+  Outside = 7   ///< beside such a cone and far from the samples, or beyond their convex
+                ///< hull where the model ends there: no value unless extrapolated
 };
 
 /** \brief Fields at queries. */
