@@ -16,6 +16,14 @@ test "$("$folder/build/window_consumer")" = "bounds from 3"
 if [ -e "$folder/prefix/include/pcl_uvol/mpi" ]; then
   test "$("$folder/build/ranks_consumer")" = "rank 0 of 1"
 fi
+# The project and the program of the README, as they are printed there.
+block() { sed -n "/^\`\`\`$1\$/,/^\`\`\`\$/p" "$source_dir/../../README.md" | sed '/^```/d'; }
+mkdir "$folder/readme"
+block cmake >"$folder/readme/CMakeLists.txt"
+block cpp >"$folder/readme/main.cpp"
+cmake -S "$folder/readme" -B "$folder/readme/build" -G Ninja -DCMAKE_PREFIX_PATH="$folder/prefix" -DCMAKE_BUILD_TYPE=Release
+cmake --build "$folder/readme/build"
+"$folder/readme/build/mine" | grep -E '^[1-9][0-9]* isopoints'
 "$folder/prefix/bin/uvol_isosurface" -version
 "$folder/prefix/bin/uvol" viewer -version
 test -s "$folder/prefix/share/man/man1/uvol_isosurface.1"
