@@ -4,6 +4,7 @@
 #include "common/sample_checks.h"
 #include "interpolation/answer_summary.h"
 #include "interpolation/memory_need.h"
+#include "io/cell_loader.h"
 #include "io/memory_need.h"
 #include "neighbors/sampling.h"
 #include "shared/memory_guard.h"
@@ -157,9 +158,12 @@ findQuerySize(const Arguments& arguments, const Slice* lattice)
 
 /** What the tool holds beside the samples. */
 uvol_tools::MemoryGuard::Work
-forecastMemory(const Arguments& arguments, double fields, const QuerySize& queries)
+forecastMemory(const Arguments& arguments,
+               double fields,
+               const QuerySize& queries,
+               double cell_bytes = 0.0)
 {
-  return [&arguments, fields, queries](
+  return [&arguments, fields, queries, cell_bytes](
              double points, double point_step, pcl_uvol::MemoryForecast& forecast) {
     arguments.model.addFieldsNeed(points, point_step, forecast);
     using pcl_uvol::QueryShape;
@@ -167,6 +171,7 @@ forecastMemory(const Arguments& arguments, double fields, const QuerySize& queri
     const QueryShape shape = kind == Kind::Line    ? QueryShape::Line
                              : kind == Kind::Plane ? QueryShape::Plane
                                                    : QueryShape::Space;
+    forecast.hold(cell_bytes);
     forecast.hold(sizeof(int) * points); // indices of all
     const InterpolationParameters& parameters = arguments.model.getParameters();
     if (arguments.model.hasValidation())
@@ -202,6 +207,35 @@ findBounds(const Dataset& samples, const std::array<double, 3>& sides)
     bounds.high[axis] += samples.origin[axis];
   }
   return bounds;
+}
+
+/** The cells of the input, where they decide where its data are. Points that were left
+ * out, and images, have none.
+ * \return null where the samples decide */
+std::shared_ptr<const pcl_uvol::detail::SampleCells>
+loadCells(const Arguments& arguments,
+          const pcl_uvol::LoadOptions& load,
+          const Dataset& samples,
+          bool is_periodic,
+          Report& report)
+{
+  if (!arguments.queries.usesCells() || is_periodic ||
+      !arguments.reading.getWhere().empty())
+    return nullptr;
+  const StepTimer timer(report, "cells");
+  try {
+    auto cells = pcl_uvol::loadCells(arguments.input, load, samples);
+    if (cells)
+      report.count("cells", cells->size());
+    return cells;
+  }
+  catch (const pcl_uvol::IOError& error) {
+    report.warnings.push_back(
+        "The cells of the input are not used: " + error.message() +
+        " The samples decide where the data are, as with "
+        "-no-cell-mask.");
+    return nullptr;
+  }
 }
 
 int
@@ -250,11 +284,13 @@ run(int argc, char** argv, uvol_tools::SeriesStep* step)
   std::optional<Slice> lattice;
   if (kind != Kind::None && kind != Kind::Points)
     lattice = arguments.queries.makeLattice(findBounds(samples, boxed.getSides()));
+  const auto cells = loadCells(arguments, load, samples, boxed.isPeriodic(), report);
   memory.checkCloud(
       samples,
       forecastMemory(arguments,
                      static_cast<double>(parameters.fields.size()),
-                     findQuerySize(arguments, lattice ? &*lattice : nullptr)));
+                     findQuerySize(arguments, lattice ? &*lattice : nullptr),
+                     cells ? cells->getBytes() : 0.0));
   const pcl_uvol::CloudView view = pcl_uvol::viewOf(samples.cloud);
   pcl::Indices indices(view.count);
   std::iota(indices.begin(), indices.end(), 0);
@@ -289,8 +325,9 @@ run(int argc, char** argv, uvol_tools::SeriesStep* step)
          arguments.model.validate(samples, own, parameters, options.threads(), report))
       facts.push_back(fact);
   if (kind != Kind::None || arguments.variogram.isAskedFor()) {
-    const FieldInterpolator interpolator(
+    FieldInterpolator interpolator(
         view, indices, parameters, options.threads(), report);
+    interpolator.setCells(cells);
     pcl_uvol::warnOfConflicts(samples.cloud.width - report.getCount("duplicates"),
                               parameters.fields.size(),
                               report);

@@ -10,6 +10,7 @@
 #include "interpolation/kriging_model.h"
 #include "interpolation/natural_model.h"
 #include "interpolation/query_order.h"
+#include "interpolation/sample_cells.h"
 #include "interpolation/simple_models.h"
 #include "neighbors/sample_values.h"
 #include <pcl_uvol/interpolation/cross_validation.h>
@@ -108,6 +109,7 @@ boxOf(const SampleSet& samples)
 /** Fields with the same samples, and their model. */
 struct FieldInterpolator::Group {
   std::vector<std::uint32_t> use; ///< input indices
+  std::size_t all = 0;            ///< points of the input
   std::vector<std::size_t> fields;
   std::vector<ValueFrame> frames;           ///< of each of them
   std::vector<std::vector<double>> columns; ///< of each of them, by input index; empty
@@ -160,6 +162,22 @@ struct FieldInterpolator::Group {
                 .value;
       }
     report.count("conflicting_duplicates", conflicting);
+  }
+
+  /** Which queries are inside of cells whose samples have the fields: 1, others 0. */
+  std::vector<std::uint8_t>
+  findInside(const SampleCells& cells,
+             const std::vector<std::array<double, 3>>& queries,
+             unsigned threads) const
+  {
+    std::vector<bool> used(all);
+    for (const std::uint32_t sample : use)
+      used[sample] = true;
+    std::vector<std::uint8_t> inside(queries.size());
+    parallelBlocks(queries.size(), block_queries, threads, [&](auto begin, auto end) {
+      cells.findInside(&queries[begin], end - begin, used, &inside[begin]);
+    });
+    return inside;
   }
 
   /** A query's place among the samples; false if it has none. */
@@ -235,8 +253,10 @@ namespace {
 /** Answers of a group of fields, a block of queries after the other. */
 class BlockAnswers {
 public:
-  BlockAnswers(std::size_t fields, const InterpolationParameters& parameters)
-      : extrapolate_(parameters.extrapolate)
+  BlockAnswers(std::size_t fields,
+               const InterpolationParameters& parameters,
+               bool extrapolate)
+      : extrapolate_(extrapolate)
       , values_(block_queries * fields, none)
       , gradients_(parameters.gradients ? 3 * block_queries * fields : 0, none)
       , errors_(parameters.errors ? block_queries * fields : 0, none)
@@ -252,6 +272,17 @@ public:
             errors_.empty() ? nullptr : errors_.data(),
             support_.data(),
             extrapolate_};
+  }
+
+  /** Cells know more of where the data are than samples: what these say of how far a
+   * place is from them stays. */
+  void
+  takeFromCells(std::size_t query, bool is_inside)
+  {
+    if (!is_inside)
+      support_[query] = FieldSupport::Outside;
+    else if (support_[query] == FieldSupport::Outside)
+      support_[query] = FieldSupport::Bridged;
   }
 
 private:
@@ -307,6 +338,7 @@ FieldInterpolator::FieldInterpolator(const CloudView& input,
         });
     Group& group = same == groups_.end() ? groups_.emplace_back() : *same;
     group.use = std::move(use);
+    group.all = cloud.count;
     group.turn = axes.getRows();
     group.fields.push_back(f);
     group.frames.push_back(frame);
@@ -333,21 +365,30 @@ FieldInterpolator::answer(const std::vector<std::array<double, 3>>& queries,
   for (const Group& group : groups_) {
     std::vector<Query> places(queries.size());
     std::vector<std::uint32_t> sources;
+    std::vector<std::uint8_t> inside;
+    if (cells_)
+      inside = group.findInside(*cells_, queries, threads);
     for (std::size_t i = 0; i < queries.size(); ++i)
-      if (group.locate(queries[i], places[sources.size()]))
-        sources.push_back(static_cast<std::uint32_t>(i));
-      else
+      if (!group.locate(queries[i], places[sources.size()]))
         result.support[i] = FieldSupport::Invalid;
+      else if (cells_ && inside[i] == 0 && !parameters_.extrapolate)
+        result.support[i] = weaker(result.support[i], FieldSupport::Outside);
+      else
+        sources.push_back(static_cast<std::uint32_t>(i));
     places.resize(sources.size());
     const auto order = orderInSpace(places, boxOf(*group.sampled.samples), threads);
     parallelBlocks(order.size(), block_queries, threads, [&](auto begin, auto end) {
       std::vector<Query> block;
       for (std::size_t i = begin; i < end; ++i)
         block.push_back(places[order[i]]);
-      BlockAnswers answers(group.fields.size(), parameters_);
+      BlockAnswers answers(
+          group.fields.size(), parameters_, parameters_.extrapolate || cells_);
       group.model->evaluate(block.data(), block.size(), answers.arrays());
-      for (std::size_t i = begin; i < end; ++i)
+      for (std::size_t i = begin; i < end; ++i) {
+        if (cells_)
+          answers.takeFromCells(i - begin, inside[sources[order[i]]] != 0);
         group.scatter(answers.arrays(), i - begin, sources[order[i]], result);
+      }
       step.advance(end - begin);
     });
   }

@@ -27,10 +27,6 @@ namespace pcl_uvol {
 namespace io {
 namespace {
 
-constexpr unsigned char left_out = vtkDataSetAttributes::DUPLICATECELL |
-                                   vtkDataSetAttributes::REFINEDCELL |
-                                   vtkDataSetAttributes::HIDDENCELL;
-
 void
 checkTuples(const std::string& path,
             vtkDataSetAttributes& data,
@@ -116,7 +112,7 @@ dropGhosts(vtkPolyData& centers)
   kept_data.CopyAllOn();
   kept_data.CopyAllocate(&data);
   for (vtkIdType i = 0; i < centers.GetNumberOfPoints(); ++i)
-    if ((ghosts->GetValue(i) & left_out) == 0)
+    if (!isLeftOut(ghosts->GetValue(i)))
       kept_data.CopyData(&data, i, points->InsertNextPoint(centers.GetPoint(i)));
   kept->SetPoints(points);
   return kept;
@@ -168,6 +164,14 @@ private:
 };
 
 } // namespace
+
+bool
+isLeftOut(unsigned char ghost)
+{
+  return (ghost &
+          (vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::REFINEDCELL |
+           vtkDataSetAttributes::HIDDENCELL)) != 0;
+}
 
 void
 checkCells(const std::string& path, vtkDataSet& data)

@@ -4,6 +4,7 @@
 #include "io/files.h"
 
 #include <vtkDataArray.h>
+#include <vtkFieldData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -153,6 +154,10 @@ Sender::send(VtkContent& content) const
     send(roles[i]);
     send(*arrays[i]);
   }
+  vtkFieldData& others = *content.data->GetFieldData();
+  send(static_cast<std::uint64_t>(others.GetNumberOfArrays()));
+  for (int i = 0; i < others.GetNumberOfArrays(); ++i)
+    send(*others.GetArray(i));
   send(content.notes.size());
   for (const std::string& note : content.notes)
     send(note);
@@ -389,6 +394,9 @@ Child::take()
     if (role < vtkDataSetAttributes::NUM_ATTRIBUTES)
       data.SetActiveAttribute(index, static_cast<int>(role));
   }
+  const std::uint64_t others = receiveNumber();
+  for (std::uint64_t i = 0; i < others; ++i)
+    set->GetFieldData()->AddArray(receiveArray());
   VtkContent content{set, {}};
   const std::uint64_t notes = receiveNumber();
   for (std::uint64_t i = 0; i < notes; ++i)

@@ -17,6 +17,7 @@ namespace io {
  *
  * The child is a copy of the calling thread alone: it may take no locks that other
  * threads hold, and VTK uses no threads in it. Of arrays of texts only a note arrives.
+ * Arrays of field data arrive as well: they are numbers.
  *
  * \param bytes of the file, or of all files that belong to it
  * \param read gives vtkPointSet

@@ -2,7 +2,6 @@
 #include "io/vtk_data_reader.h"
 
 #include "common/printable.h"
-#include "io/cell_centers.h"
 #include "io/child_process.h"
 #include "io/files.h"
 #include "io/folder.h"
@@ -11,24 +10,16 @@
 #include "io/xml_scanner.h"
 #include <pcl_uvol/io/dataset.h>
 
-#include <vtkAMRUtilities.h>
-#include <vtkAppendFilter.h>
-#include <vtkCompositeDataIterator.h>
-#include <vtkCompositeDataSet.h>
 #include <vtkDataSet.h>
 #include <vtkExodusIIReader.h>
 #include <vtkGenericDataObjectReader.h>
 #include <vtkGenericEnSightReader.h>
-#include <vtkHyperTreeGrid.h>
 #include <vtkInformation.h>
 #include <vtkNew.h>
 #include <vtkOpenFOAMReader.h>
-#include <vtkOverlappingAMR.h>
-#include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
-#include <vtkUnstructuredGrid.h>
 #include <vtkXMLGenericDataObjectReader.h>
 #include <vtkXMLHyperTreeGridReader.h>
 #include <vtkXMLUniformGridAMRReader.h>
@@ -122,113 +113,6 @@ makeReader(const std::string& path, DataPlace place)
                             1);
   return reader;
 }
-
-/** Points and their data, without the cells. */
-vtkSmartPointer<vtkPolyData>
-takePoints(vtkDataSet& data)
-{
-  auto result = vtkSmartPointer<vtkPolyData>::New();
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  points->SetNumberOfPoints(data.GetNumberOfPoints());
-  for (vtkIdType i = 0; i < data.GetNumberOfPoints(); ++i) {
-    double place[3];
-    data.GetPoint(i, place);
-    points->SetPoint(i, place);
-  }
-  result->SetPoints(points);
-  result->GetPointData()->ShallowCopy(data.GetPointData());
-  return result;
-}
-
-/** All points, or centres of cells, behind one another. */
-class PointJoiner {
-public:
-  PointJoiner(const std::string& path, DataPlace place)
-      : path_(path)
-      , place_(place)
-  {
-  }
-
-  /** Add data, or all blocks of them. */
-  void
-  add(vtkDataObject& object)
-  {
-    if (auto* const data = vtkDataSet::SafeDownCast(&object)) {
-      if (place_ == DataPlace::Cells)
-        checkCells(path_, *data);
-      // Centres are asked of data, not of points that are left.
-      addBlock(place_ == DataPlace::Points ? takePoints(*data)
-                                           : takeCellCenters(*data));
-      return;
-    }
-    if (auto* const trees = vtkHyperTreeGrid::SafeDownCast(&object)) {
-      addBlock(takeCellCenters(*trees));
-      return;
-    }
-    if (auto* const levels = vtkOverlappingAMR::SafeDownCast(&object))
-      vtkAMRUtilities::BlankCells(levels);
-    if (auto* const blocks = vtkCompositeDataSet::SafeDownCast(&object)) {
-      const auto iterator =
-          vtkSmartPointer<vtkCompositeDataIterator>::Take(blocks->NewIterator());
-      for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal();
-           iterator->GoToNextItem())
-        if (vtkDataObject* const block = iterator->GetCurrentDataObject())
-          add(*block);
-    }
-  }
-
-  /** Add points that were made of a file. */
-  void
-  addPoints(vtkPolyData& points)
-  {
-    addBlock(&points);
-  }
-
-  bool
-  isEmpty() const
-  {
-    return blocks_.empty();
-  }
-
-  /** \throws IOError without a point */
-  VtkContent
-  join() const
-  {
-    if (isEmpty())
-      throwUnreadable(
-          path_, place_ == DataPlace::Points ? "it has no points" : "it has no cells");
-    vtkNew<vtkAppendFilter> append;
-    append->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
-    for (const auto& block : blocks_)
-      append->AddInputData(block);
-    append->Update();
-    VtkContent content{append->GetOutput(), {}};
-    for (const std::string& name : names_)
-      if (content.data->GetPointData()->HasArray(name.c_str()) == 0)
-        content.notes.push_back("The field " + quoteText(name) +
-                                " is left out: not all of the parts have it.");
-    return content;
-  }
-
-private:
-  void
-  addBlock(const vtkSmartPointer<vtkPolyData>& points)
-  {
-    if (points->GetNumberOfPoints() == 0)
-      return;
-    vtkPointData& data = *points->GetPointData();
-    for (int i = 0; i < data.GetNumberOfArrays(); ++i)
-      if (const char* const name = data.GetArrayName(i))
-        names_.insert(name);
-    blocks_.push_back(points);
-  }
-
-  std::string path_;
-  DataPlace place_;
-  std::vector<vtkSmartPointer<vtkPolyData>> blocks_;
-  std::set<std::string> names_;
-};
 
 /** Read the last of several times.
  * \return what to say of it */
@@ -433,11 +317,17 @@ isReadByVtk(const std::string& path)
          isAmong(cell_endings, ending);
 }
 
+bool
+hasCellsOnly(const std::string& path)
+{
+  return isAmong(cell_endings, getEnding(path));
+}
+
 VtkContent
 readByVtk(const std::string& path, DataPlace place)
 {
   checkBeginning(path);
-  if (isAmong(cell_endings, getEnding(path)))
+  if (hasCellsOnly(path))
     place = DataPlace::Cells;
   VtkContent content = readApart(path, place);
   if (content.data->GetNumberOfPoints() == 0)
@@ -473,6 +363,28 @@ readFileList(const std::string& path, DataPlace place)
   VtkContent content = points.join();
   content.notes.insert(content.notes.begin(), notes.begin(), notes.end());
   return content;
+}
+
+SolidCells
+readSolidCells(const std::string& path)
+{
+  const auto read = [](const std::string& file) {
+    const VtkContent content = readApart(file, DataPlace::Solids);
+    return unpackCells(file, *vtkPolyData::SafeDownCast(content.data));
+  };
+  if (!isFileList(path)) {
+    checkBeginning(path);
+    return read(path);
+  }
+  std::vector<SolidCells> parts;
+  ReadLists lists;
+  lists.first = path;
+  std::vector<std::string> notes;
+  visitFiles(path, lists, notes, [&](const std::string& file) {
+    if (SolidCells part = read(file); part.mesh)
+      parts.push_back(std::move(part));
+  });
+  return joinSolidCells(parts);
 }
 
 } // namespace io

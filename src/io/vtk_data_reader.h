@@ -2,6 +2,8 @@
 // Points of files that VTK's own readers take, and of files that list others.
 #pragma once
 
+#include "io/point_joiner.h"
+#include "io/solid_cells.h"
 #include "io/vtk_readers.h"
 
 #include <string>
@@ -9,13 +11,15 @@
 namespace pcl_uvol {
 namespace io {
 
-/** \brief What becomes samples: points, or the centres of cells. */
-enum class DataPlace { Points, Cells };
-
 /** \brief True for the endings of Exodus, EnSight, OpenFOAM, and of adaptive meshes and
  * octrees. */
 bool
 isReadByVtk(const std::string& path);
+
+/** \brief True for the endings of adaptive meshes and octrees, whose samples are always
+ * the centres of cells. */
+bool
+hasCellsOnly(const std::string& path);
 
 /** \brief The points of all blocks at the last time, with the fields that all blocks
  * have; of adaptive meshes and octrees the centres of cells. Centres of cells are read
@@ -26,6 +30,13 @@ isReadByVtk(const std::string& path);
  * \throws IOError */
 VtkContent
 readByVtk(const std::string& path, DataPlace place);
+
+/** \brief The solid cells of a file that VTK reads, or of all files of a list, see
+ * readByVtk() and readFileList().
+ * \return a mesh that is null where there are no such cells
+ * \throws IOError */
+SolidCells
+readSolidCells(const std::string& path);
 
 /** \brief True for the endings of files that list others: .pvd, .vtm, .pvtu, .pvtp and
  * .pvts. */

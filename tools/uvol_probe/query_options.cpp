@@ -70,6 +70,14 @@ QueryOptions::declare(Options& options)
                "or as many points along x, y and z");
   options.numbers(
       "box", "x0,y0,z0,x1,y1,z1", 6, box_, "of -plane and -grid (default: the data's)");
+  options
+      .flag(
+          "no-cell-mask",
+          has_cell_mask_,
+          "let the samples decide where the data are; default: if the input has cells, "
+          "values are inside of cells only, except with -where and -periodic",
+          false)
+      .rare();
 }
 
 void

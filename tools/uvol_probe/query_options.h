@@ -40,6 +40,13 @@ public:
     return points_;
   }
 
+  /** \brief Whether cells of the input, where it has any, say where its data are. */
+  bool
+  usesCells() const
+  {
+    return kind_ != Kind::None && has_cell_mask_;
+  }
+
   /** \brief The lattice of -line, -plane or -grid, in coordinates without an origin
    * taken off; its picture's axes are those of makeSlice().
    * \param data box of the samples
@@ -56,6 +63,7 @@ private:
   parseGrid();
 
   Kind kind_ = Kind::None;
+  bool has_cell_mask_ = true;
   std::string points_, plane_text_, grid_text_, size_text_ = "512";
   std::vector<double> line_, box_;
   std::uint64_t line_points_ = 500;

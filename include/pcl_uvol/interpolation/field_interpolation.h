@@ -18,6 +18,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pcl_uvol {
@@ -91,6 +92,7 @@ appendFields(const InterpolatedFields& fields, pcl::PCLPointCloud2& points);
 
 namespace detail {
 
+class SampleCells;
 struct FittedVariogram;
 
 /** \brief Queries of a lattice that are answered at a time. */
@@ -114,6 +116,16 @@ public:
   FieldInterpolator&
   operator=(const FieldInterpolator&) = delete;
   ~FieldInterpolator();
+
+  /** \brief Let cells decide where the data are instead of the samples: inside of one
+   * there is a value, of FieldSupport::Bridged where samples alone would say Outside;
+   * outside of all there is none unless extrapolated.
+   * \param cells of the same samples; null: the samples decide */
+  void
+  setCells(std::shared_ptr<const SampleCells> cells)
+  {
+    cells_ = std::move(cells);
+  }
 
   /** \brief Answer queries.
    * \param queries coordinates like those of the cloud
@@ -164,6 +176,7 @@ private:
   InterpolationParameters parameters_;
   std::vector<std::string> names_;
   std::vector<Group> groups_;
+  std::shared_ptr<const SampleCells> cells_;
 };
 
 /** \brief Places of the points of a cloud. */

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The cells of a file as what says where its data are.
+#pragma once
+
+#include "interpolation/sample_cells.h"
+#include <pcl_uvol/common/export.h>
+#include <pcl_uvol/io/dataset.h>
+
+#include <memory>
+#include <string>
+
+namespace pcl_uvol {
+
+/** \brief Read the three-dimensional cells of a file of VTK, Exodus, EnSight or
+ * OpenFOAM, or of a list of such files, without its fields.
+ *
+ * VTK's own readers do it, in a child process with limits.
+ * \param options that the samples were read with
+ * \param samples of the same file
+ * \return null for a file of another format, a packed one, and one without such cells
+ * \throws IOError */
+PCL_UVOL_EXPORTS std::shared_ptr<const detail::SampleCells>
+loadCells(const std::string& path, const LoadOptions& options, const Dataset& samples);
+
+} // namespace pcl_uvol
