@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/coordinate_columns.h"
 
+#include "common/degree_names.h"
 #include "common/numbers.h"
 #include "common/printable.h"
 #include <pcl_uvol/common/exceptions.h>
@@ -300,19 +301,29 @@ findMixture(System system, const std::array<std::string, 3>& names)
   return mixLengths(names) ? "different units of length" : "";
 }
 
+bool
+saysDegreesOrNoUnit(const std::string& name, std::size_t axis)
+{
+  const Parts parts = splitName(name);
+  return saysDegrees(parts.word, axis) &&
+         (parts.unit.empty() || parts.unit.rfind("deg", 0) == 0);
+}
+
 CoordinateColumns
 describeColumns(System system,
                 const std::array<std::size_t, 3>& found,
                 const std::vector<std::string>& names)
 {
-  CoordinateColumns columns{found, "", ""};
+  CoordinateColumns columns{found, "", "", false};
   const std::string &x = names[found[0]], &y = names[found[1]], &z = names[found[2]];
   const std::string mixture = findMixture(system, {x, y, z});
   if (!mixture.empty())
     columns.mixture = "Coordinates are " + x + ", " + y + " and " + z +
-                      ", so distances mix " + mixture +
-                      ": columns in one unit of length, or factors for the axes "
-                      "(-scale), mend that.";
+                      ", so distances mix " + mixture + ". Try: " +
+                      (areGlobal(found, names)
+                           ? "-map auto, which maps degrees to kilometres or metres"
+                           : "columns in one unit of length") +
+                      ", or factors for the axes (-scale).";
   if (system == CommonEnding)
     columns.note =
         "The columns " + shortenText(x) + ", " + shortenText(y) + " and " +
@@ -325,7 +336,7 @@ describeColumns(System system,
 } // namespace
 
 std::optional<CoordinateColumns>
-recognizeCoordinates(const std::vector<std::string>& names)
+recognizeCoordinates(const std::vector<std::string>& names, bool on_map)
 {
   std::array<std::array<std::vector<Candidate>, 3>, systems> candidates;
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -333,12 +344,31 @@ recognizeCoordinates(const std::vector<std::string>& names)
     for (const auto& [system, axis] : listAxes(names[i], parts))
       candidates[system][axis].push_back(makeCandidate(i, system, parts));
   }
+  if (on_map)
+    if (const auto found = findAxes(Geographic, candidates[Geographic]);
+        found && areGlobal(*found, names))
+      return CoordinateColumns{*found, "", "", true};
   for (std::size_t i = 0; i < systems; ++i) {
     const auto system = static_cast<System>(i);
     if (const auto found = findAxes(system, candidates[i]))
       return describeColumns(system, *found, names);
   }
   return std::nullopt;
+}
+
+bool
+areGlobal(const std::array<std::size_t, 3>& columns,
+          const std::vector<std::string>& names)
+{
+  return saysDegreesOrNoUnit(names[columns[0]], 0) &&
+         saysDegreesOrNoUnit(names[columns[1]], 1);
+}
+
+bool
+isDownwards(const std::string& name)
+{
+  const std::string word = pcl_uvol::splitName(name).word;
+  return word == "depth" || word == "pres" || word == "pressure";
 }
 
 bool

@@ -13,9 +13,20 @@ namespace pcl_uvol::io {
 /** \brief The columns of x, y and z. */
 struct CoordinateColumns {
   std::array<std::size_t, 3> columns{{0, 1, 2}};
-  std::string note;    ///< what was assumed about their names; empty: nothing
-  std::string mixture; ///< which units distances mix; empty: none that are known
+  std::string note;       ///< what was assumed about their names; empty: nothing
+  std::string mixture;    ///< which units distances mix; empty: none that are known
+  bool is_global = false; ///< x and y are longitude and latitude in degrees, for a map
 };
+
+/** \brief Whether x and y of some columns are longitude and latitude in degrees. */
+bool
+areGlobal(const std::array<std::size_t, 3>& columns,
+          const std::vector<std::string>& names);
+
+/** \brief Whether a name is that of a vertical axis that counts downwards: a depth or
+ * a pressure. */
+bool
+isDownwards(const std::string& name);
 
 /** \brief Find coordinates by the names of columns.
  *
@@ -31,9 +42,10 @@ struct CoordinateColumns {
  *
  * A name with a word of another quantity (velocity, error, ...) is not a coordinate. Of
  * several columns for an axis the first counts.
+ * \param on_map longitude and latitude in degrees come first, and no note is about them
  * \return nothing if the names do not contain three axes */
 std::optional<CoordinateColumns>
-recognizeCoordinates(const std::vector<std::string>& names);
+recognizeCoordinates(const std::vector<std::string>& names, bool on_map = false);
 
 /** \brief Whether a name has an axis of any of these systems, or is a component of
  * another quantity, as x_vel: then coordinates are not guessed. */

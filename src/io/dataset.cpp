@@ -2,6 +2,7 @@
 // Loading and saving by the ending of the name.
 #include "io/files.h"
 #include "io/formats.h"
+#include "io/globe_places.h"
 #include "io/record_source.h"
 #include <pcl_uvol/common/exceptions.h>
 
@@ -49,7 +50,7 @@ openRecords(const std::string& path, FileFormat format, const LoadOptions& optio
     return openPlot3d(path);
   case FileFormat::Netcdf:
 #ifdef PCL_UVOL_HAS_NETCDF
-    return openNetcdf(path);
+    return openNetcdf(path, options);
 #else
     throwUnreadable(path, "this build does not read NetCDF, whose library it lacks");
 #endif
@@ -58,6 +59,24 @@ openRecords(const std::string& path, FileFormat format, const LoadOptions& optio
   }
 }
 
+namespace {
+
+Dataset
+readFormat(const std::string& path, FileFormat format, const LoadOptions& options)
+{
+  switch (format) {
+  case FileFormat::Pcd:
+    return readPcd(path, options.progress);
+  case FileFormat::Text:
+    return readText(path, options);
+  case FileFormat::Vtk:
+    return readVtk(path, options);
+  default:
+    return readWhole(openRecords(path, format, options), options.progress);
+  }
+}
+
+} // namespace
 } // namespace io
 
 Dataset
@@ -65,16 +84,9 @@ loadDataset(const std::string& path, const LoadOptions& options)
 {
   const io::FileFormat format = io::findFormat(path, options);
   return io::reading(path, [&] {
-    switch (format) {
-    case io::FileFormat::Pcd:
-      return io::readPcd(path, options.progress);
-    case io::FileFormat::Text:
-      return io::readText(path, options);
-    case io::FileFormat::Vtk:
-      return io::readVtk(path, options);
-    default:
-      return io::readWhole(io::openRecords(path, format, options), options.progress);
-    }
+    Dataset dataset = io::readFormat(path, format, options);
+    io::putOnMap(dataset, options.map);
+    return dataset;
   });
 }
 

@@ -156,5 +156,30 @@ findFormat(const std::string& path, const LoadOptions& options)
   return format;
 }
 
+LoadOptions
+adaptOptions(const std::string& path, LoadOptions options)
+{
+  LoadOptions plain;
+  plain.cells = options.cells;
+  const auto takes = [&](const LoadOptions& tried) {
+    try {
+      findFormat(path, tried);
+      return true;
+    }
+    catch (const InvalidArgument&) {
+      return false;
+    }
+  };
+  if (!takes(plain))
+    options.cells = plain.cells = false;
+  plain.xyz_columns = options.xyz_columns;
+  if (!takes(plain))
+    options.xyz_columns = plain.xyz_columns = {};
+  plain.particles = options.particles;
+  if (!takes(plain))
+    options.particles.clear();
+  return options;
+}
+
 } // namespace io
 } // namespace pcl_uvol

@@ -40,6 +40,11 @@ enum class FileFormat {
 FileFormat
 findFormat(const std::string& path, const LoadOptions& options);
 
+/** \brief Options for another file of a command: but for columns of coordinates, the
+ * kind of particles and cells where its format does not take them. */
+PCL_UVOL_EXPORTS LoadOptions
+adaptOptions(const std::string& path, LoadOptions options);
+
 /** \brief Endings of files that points are read from, and written to. @{ */
 PCL_UVOL_EXPORTS std::vector<std::string>
 listLoadedEndings();
@@ -142,7 +147,7 @@ openBgeo(const std::string& path);
 
 /** Not there where the build lacks the library of NetCDF. */
 std::unique_ptr<RecordSource>
-openNetcdf(const std::string& path);
+openNetcdf(const std::string& path, const LoadOptions& options);
 /** @} */
 
 /** \brief Grids of PLOT3D, and their solutions where these stand beside them.

@@ -3,6 +3,7 @@
 #include "common/records.h"
 #include "io/files.h"
 #include "io/formats.h"
+#include "io/globe_places.h"
 #include "io/mesh_readers.h"
 #include "io/record_source.h"
 #include <pcl_uvol/common/cloud_view.h>
@@ -61,11 +62,14 @@ loadMesh(const std::string& path)
 }
 
 Dataset
-loadMesh(const std::string& path, std::vector<Triangle>& triangles)
+loadMesh(const std::string& path,
+         std::vector<Triangle>& triangles,
+         const std::optional<MapProjection>& map)
 {
   return io::reading(path, [&] {
     io::LoadedMesh mesh = io::readMesh(path);
     triangles = std::move(mesh.triangles);
+    io::putOnMap(mesh.vertices, map);
     return std::move(mesh.vertices);
   });
 }

@@ -5,21 +5,15 @@
 #include "common/numbers.h"
 #include "common/printable.h"
 #include "io/files.h"
+#include "io/globe_places.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <sstream>
 
 namespace pcl_uvol {
 namespace io {
 namespace {
 
-/** Mean radius of the Earth in kilometres (IUGG 1980). */
-constexpr double earth_radius = 6371.0088;
-constexpr double radians = 3.14159265358979323846 / 180.0;
-/** Kilometres; a region that is smaller is told in metres. */
-constexpr double small_region = 100.0;
 constexpr std::size_t block_numbers = 1u << 16;
 
 struct AxisNames {
@@ -98,48 +92,25 @@ isDownwards(const NetcdfFile& file, const NetcdfVariable& variable)
          isAmong(vertical.units, file.readText(variable, "units"));
 }
 
-struct Extent {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-};
-
-/** \param near longitudes count by the shorter way from there */
-Extent
-measure(const SampleVariable& variable, std::uint64_t size, AxisMap near)
+/** Longitude and latitude of all samples, block by block. */
+VisitGlobe
+visitPlaces(const SampleSpace& space, const PlaceVariables& places)
 {
-  Extent extent;
-  std::vector<double> numbers;
-  bool is_first = true;
-  for (std::uint64_t first = 0; first < size; first += numbers.size()) {
-    numbers.resize(std::min<std::uint64_t>(block_numbers, size - first));
-    variable.read(first, numbers.size(), numbers.data());
-    for (const double number : numbers) {
-      if (!std::isfinite(placeOrNaN(number)))
-        continue;
-      if (is_first)
-        near.origin = number;
-      is_first = false;
-      const double place = near.origin + near.apply(number);
-      extent.low = std::min(extent.low, place);
-      extent.high = std::max(extent.high, place);
+  return [&](const std::function<void(double, double)>& take) {
+    const SampleVariable east = space.open(*places.axes[0]),
+                         north = space.open(*places.axes[1]);
+    std::array<std::vector<double>, 2> numbers;
+    std::uint64_t count = 0;
+    for (std::uint64_t first = 0; first < space.size(); first += count) {
+      count = std::min<std::uint64_t>(block_numbers, space.size() - first);
+      for (auto& block : numbers)
+        block.resize(count);
+      east.read(first, count, numbers[0].data());
+      north.read(first, count, numbers[1].data());
+      for (std::size_t i = 0; i < count; ++i)
+        take(placeOrNaN(numbers[0][i]), placeOrNaN(numbers[1][i]));
     }
-  }
-  return extent;
-}
-
-std::string
-describeDegrees(double degrees, const char* letters)
-{
-  std::ostringstream text;
-  text.precision(8);
-  text << std::abs(degrees) << ' ' << letters[degrees < 0.0 ? 1 : 0];
-  return text.str();
-}
-
-/** Around which place degrees are mapped, to the digit that is told. */
-double
-roundDegrees(double degrees)
-{
-  return std::round(degrees * 1e4) / 1e4;
+  };
 }
 
 } // namespace
@@ -184,48 +155,36 @@ AxisMap::apply(double number) const
   return factor * (is_longitude ? std::remainder(difference, 360.0) : difference);
 }
 
-std::array<AxisMap, 3>
+PlaceMaps
 mapPlaces(const SampleSpace& space,
           const PlaceVariables& places,
+          const MapProjection& wanted,
           std::vector<std::string>& notes)
 {
-  std::array<AxisMap, 3> maps;
-  std::ostringstream text;
+  PlaceMaps maps;
+  std::string text;
   if (places.is_global) {
-    std::array<Extent, 2> extents;
-    for (std::size_t axis = 0; axis < 2; ++axis) {
-      maps[axis].is_longitude = axis == 0;
-      extents[axis] = measure(space.open(*places.axes[axis]), space.size(), maps[axis]);
-      maps[axis].origin =
-          extents[axis].low <= extents[axis].high
-              ? roundDegrees((extents[axis].low + extents[axis].high) / 2.0)
-              : 0.0;
-    }
-    maps[0].origin = std::remainder(maps[0].origin, 360.0);
-    const double degree = earth_radius * radians,
-                 shrunk = std::cos(maps[1].origin * radians);
-    const double largest =
-        degree * std::max((extents[0].high - extents[0].low) * shrunk,
-                          extents[1].high - extents[1].low);
-    const double unit = largest < small_region ? 1000.0 : 1.0;
-    maps[0].factor = unit * degree * shrunk;
-    maps[1].factor = unit * degree;
-    text << "Places are mapped around " << describeDegrees(maps[0].origin, "EW") << ", "
-         << describeDegrees(maps[1].origin, "NS") << ": x and y are "
-         << (unit > 1.0 ? "metres" : "kilometres") << " to the east and north, ";
+    const MapProjection map = chooseMap(
+        visitPlaces(space, places), wanted, printable(places.axes[1]->name), notes);
+    const std::array<double, 2> origin{{map.longitude, map.latitude}};
+    for (std::size_t axis = 0; axis < 2; ++axis)
+      maps.axes[axis] = {origin[axis], map.findFactors()[axis], axis == 0};
+    text = describeMap(map) + ", ";
+    maps.projection = map;
   }
   const NetcdfVariable* const height = places.axes[2];
+  double& sign = maps.axes[2].factor;
   if (height && isDownwards(space.getFile(), *height))
-    maps[2].factor = -1.0;
-  if (!places.is_global && maps[2].factor > 0.0)
+    sign = -1.0;
+  if (!places.is_global && sign > 0.0)
     return maps;
   const std::string unit =
       height ? printable(space.getFile().readText(*height, "units")) : "";
-  text << (height
-               ? std::string("z is ") + (maps[2].factor < 0.0 ? "minus " : "") +
-                     printable(height->name) + (unit.empty() ? "" : " in " + unit) + "."
-               : "z is 0.");
-  notes.push_back(text.str());
+  text += height
+              ? std::string("z is ") + (sign < 0.0 ? "minus " : "") +
+                    printable(height->name) + (unit.empty() ? "" : " in " + unit) + "."
+              : "z is 0.";
+  notes.insert(notes.begin(), text);
   return maps;
 }
 

@@ -4,8 +4,10 @@
 #pragma once
 
 #include "io/netcdf_samples.h"
+#include <pcl_uvol/common/map_projection.h>
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,14 +39,19 @@ struct AxisMap {
   apply(double number) const;
 };
 
-/** \brief The maps of all axes: longitude and latitude become kilometres, of less than
- * 100 of them metres, to the east and north of the middle; depths and pressures count
- * downwards.
- *
+/** \brief The maps of all axes: longitude and latitude become kilometres or metres to
+ * the east and north of an origin; depths and pressures count downwards. */
+struct PlaceMaps {
+  std::array<AxisMap, 3> axes;
+  std::optional<MapProjection> projection; ///< none of places in x and y
+};
+
+/** \param wanted what the projection shall be like, see chooseMap()
  * \param notes get a sentence that says so */
-std::array<AxisMap, 3>
+PlaceMaps
 mapPlaces(const SampleSpace& space,
           const PlaceVariables& places,
+          const MapProjection& wanted,
           std::vector<std::string>& notes);
 
 } // namespace io

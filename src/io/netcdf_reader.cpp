@@ -132,19 +132,21 @@ isOfUse(const SampleSpace& space, const NetcdfVariable& variable)
 } // namespace
 
 std::unique_ptr<RecordSource>
-openNetcdf(const std::string& path)
+openNetcdf(const std::string& path, const LoadOptions& options)
 {
   const auto file = std::make_shared<const NetcdfFile>(path);
   const PlaceVariables places = findPlaces(*file);
   const SampleSpace space(file, places.list());
   std::vector<std::string> notes;
-  const std::array<AxisMap, 3> maps = mapPlaces(space, places, notes);
+  const PlaceMaps maps =
+      mapPlaces(space, places, options.map.value_or(MapProjection()), notes);
   std::vector<NamedColumn> columns;
   constexpr const char* axes[] = {"x", "y", "z"};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     std::unique_ptr<FileColumn> column = makeConstant(0.0);
     if (const NetcdfVariable* const variable = places.axes[axis])
-      column = std::make_unique<CoordinateColumn>(space.open(*variable), maps[axis]);
+      column =
+          std::make_unique<CoordinateColumn>(space.open(*variable), maps.axes[axis]);
     columns.push_back({{axes[axis]}, Type::FLOAT64, 1, std::move(column)});
   }
   for (const NetcdfVariable& variable : file->getVariables()) {
@@ -160,8 +162,10 @@ openNetcdf(const std::string& path)
                        1,
                        std::make_unique<VariableColumn>(std::move(numbers))});
   }
-  return std::make_unique<ColumnSource>(
+  auto source = std::make_unique<ColumnSource>(
       space.size(), std::move(columns), std::move(notes));
+  source->setMap(maps.projection);
+  return source;
 }
 
 } // namespace io

@@ -3,6 +3,7 @@
 #include "io/point_stream.h"
 
 #include "io/formats.h"
+#include "io/globe_places.h"
 #include "io/record_source.h"
 #include <pcl_uvol/common/exceptions.h>
 
@@ -33,8 +34,13 @@ PointStream::PointStream(const std::string& path, const LoadOptions& options)
     auto source = io::openRecords(path, format, options);
     if (!source)
       io::throwNoStream(path, "VTK's files");
+    if (options.map)
+      source = io::mapRecords(std::move(source), *options.map);
     reader_ = std::make_unique<io::PointReader>(std::move(source));
     reader_->findOrigin();
+    header_ = reader_->getLayout().getHeader();
+    if (const auto& map = reader_->getSource().getMap())
+      setMap(header_, *map);
   });
 }
 
@@ -43,7 +49,7 @@ PointStream::~PointStream() = default;
 const Dataset&
 PointStream::getHeader() const
 {
-  return reader_->getLayout().getHeader();
+  return header_;
 }
 
 std::uint64_t

@@ -54,6 +54,7 @@ public:
 
 private:
   std::unique_ptr<io::PointReader> reader_;
+  Dataset header_;
 };
 
 } // namespace pcl_uvol

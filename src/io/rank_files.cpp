@@ -344,16 +344,30 @@ private:
   std::vector<Piece> pieces_;
 };
 
+/** The options by which all pieces come onto one map: that of the first one. */
+LoadOptions
+onMapOfFirst(const std::vector<std::string>& paths, const LoadOptions& options)
+{
+  LoadOptions common = options;
+  const io::FileFormat format = io::findFormat(paths[0], options);
+  if (format == io::FileFormat::Netcdf ||
+      (options.map && format == io::FileFormat::Text))
+    if (const auto map = findMap(PointStream(paths[0], options).getHeader()))
+      common.map = map;
+  return common;
+}
+
 Dataset
 loadPieces(const std::vector<std::string>& paths,
            const LoadOptions& options,
            Communicator& communicator)
 {
+  const LoadOptions common = onMapOfFirst(paths, options);
   PieceCollector collector(communicator);
   const auto begin = shareBegin(paths.size(), communicator.rank(), communicator),
              end = shareBegin(paths.size(), communicator.rank() + 1, communicator);
   for (std::size_t i = begin; i < end; ++i)
-    collector.add(paths[i], loadDataset(paths[i], options));
+    collector.add(paths[i], loadDataset(paths[i], common));
   return collector.finish(paths);
 }
 

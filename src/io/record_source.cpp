@@ -195,12 +195,13 @@ readInParts(Source& source,
 
 } // namespace
 
+namespace {
+
 Dataset
-readWhole(std::unique_ptr<RecordSource> source,
-          const ProgressCallback& progress,
-          FileCursor::Place* end)
+readPoints(PointReader& reader,
+           const ProgressCallback& progress,
+           FileCursor::Place* end)
 {
-  PointReader reader(std::move(source));
   const RecordInfo& info = reader.getSource().getInfo();
   const auto count = static_cast<std::size_t>(info.count);
   if (reader.getLayout().needsOrigin()) {
@@ -217,6 +218,20 @@ readWhole(std::unique_ptr<RecordSource> source,
   readInParts(reader, count, progress, dataset.cloud);
   if (end)
     *end = reader.getSource().tellEnd();
+  return dataset;
+}
+
+} // namespace
+
+Dataset
+readWhole(std::unique_ptr<RecordSource> source,
+          const ProgressCallback& progress,
+          FileCursor::Place* end)
+{
+  PointReader reader(std::move(source));
+  Dataset dataset = readPoints(reader, progress, end);
+  if (const auto& map = reader.getSource().getMap())
+    setMap(dataset, *map);
   return dataset;
 }
 

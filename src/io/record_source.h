@@ -4,10 +4,12 @@
 
 #include "common/records.h"
 #include "io/file_cursor.h"
+#include <pcl_uvol/common/map_projection.h>
 #include <pcl_uvol/common/stage.h>
 
 #include <cmath>
 #include <memory>
+#include <optional>
 
 namespace pcl_uvol {
 namespace io {
@@ -43,6 +45,19 @@ public:
       info_.time = time;
   }
 
+  /** \brief The map that x and y are on. */
+  const std::optional<MapProjection>&
+  getMap() const
+  {
+    return map_;
+  }
+
+  void
+  setMap(const std::optional<MapProjection>& map)
+  {
+    map_ = map;
+  }
+
   /** \brief The number of the record that read() begins with. */
   std::uint64_t
   tell() const
@@ -74,6 +89,7 @@ public:
 
 protected:
   RecordInfo info_;
+  std::optional<MapProjection> map_;
   std::uint64_t next_ = 0;
 };
 

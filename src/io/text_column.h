@@ -19,6 +19,7 @@ namespace io {
 struct TextColumn {
   std::string name;
   std::optional<std::size_t> cell; ///< of the row; without one all values are 0
+  double factor = 1.0;             ///< -1 for a coordinate that counts downwards
   std::vector<double> values;      ///< if they are kept
   bool floats = true;              ///< float32 holds all digits
   bool integers = true;            ///< all cells are whole numbers

@@ -61,6 +61,8 @@ private:
   void
   orderColumns();
   void
+  keepDegrees(std::array<std::size_t, 3>& coordinates);
+  void
   checkGuess() const;
   void
   scanNames();
@@ -75,6 +77,7 @@ private:
   std::vector<TextColumn> columns_;
   bool has_header_ = true;
   bool has_coordinates_;
+  bool is_global_ = false;             ///< x and y are degrees, to be put on a map
   bool are_guessed_ = false;           ///< the coordinates, in spite of a header
   std::array<std::string, 3> guessed_; ///< their names
   CoordinateRange range_;
@@ -224,13 +227,16 @@ TextTable::findCoordinates()
   const std::vector<std::string> names = listNames();
   if (options_.xyz_columns != LoadOptions().xyz_columns) {
     try {
-      return findChosenColumns(options_.xyz_columns, names);
+      const auto chosen = findChosenColumns(options_.xyz_columns, names);
+      is_global_ = options_.map && areGlobal(chosen, names);
+      return chosen;
     }
     catch (const InvalidArgument& error) {
       throwUnreadable(path_, error.message());
     }
   }
-  if (const auto found = recognizeCoordinates(names)) {
+  if (const auto found = recognizeCoordinates(names, options_.map.has_value())) {
+    is_global_ = found->is_global;
     if (!found->note.empty())
       notes_.push_back(found->note);
     if (!found->mixture.empty() && !options_.may_mix_units)
@@ -291,20 +297,43 @@ TextTable::checkGuess() const
                           "their names or numbers (-xyz)");
 }
 
+/** Keeps longitude, latitude and the vertical as fields: coordinates are copies, which
+ * go onto the map. */
+void
+TextTable::keepDegrees(std::array<std::size_t, 3>& coordinates)
+{
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    TextColumn copy = columns_[coordinates[axis]];
+    if (axis < 2)
+      columns_[coordinates[axis]].floats = false; // what the map is computed of
+    else if (isDownwards(copy.name))
+      copy.factor = -1.0;
+    if (axisOf(lowerCase(copy.name)) >= 0)
+      continue; // there is no other field of that name
+    coordinates[axis] = columns_.size();
+    columns_.push_back(std::move(copy));
+  }
+}
+
 /** Brings the coordinates to the front. */
 void
 TextTable::orderColumns()
 {
-  const auto coordinates = findCoordinates();
+  auto coordinates = findCoordinates();
+  if (is_global_)
+    keepDegrees(coordinates);
   std::vector<TextColumn> ordered;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     ordered.push_back(std::move(columns_[coordinates[axis]]));
     guessed_[axis] = ordered.back().name;
     ordered.back().name = std::string(1, static_cast<char>('x' + axis));
   }
-  for (std::size_t i = 0; i < columns_.size(); ++i)
-    if (std::find(coordinates.begin(), coordinates.end(), i) == coordinates.end())
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    const bool is_replaced = is_global_ && axisOf(columns_[i].name) >= 0;
+    if (std::find(coordinates.begin(), coordinates.end(), i) == coordinates.end() &&
+        !is_replaced)
       ordered.push_back(std::move(columns_[i]));
+  }
   columns_ = std::move(ordered);
 }
 
@@ -328,7 +357,9 @@ TextTable::scan(bool keep)
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       TextColumn& column = columns_[i];
       const double value =
-          column.cell ? column.take(cells[*column.cell], cursor_->tell().line) : 0.0;
+          column.cell
+              ? column.factor * column.take(cells[*column.cell], cursor_->tell().line)
+              : 0.0;
       row[i] = value;
       if (i < point.size())
         point[i] = value;
@@ -436,7 +467,8 @@ TextTable::describe()
   info.double_coordinates =
       !(columns_[0].floats && columns_[1].floats && columns_[2].floats);
   info.has_coordinates = has_coordinates_;
-  info.origin = findOrigin(range_, info.notes);
+  if (!is_global_) // else that of the map counts
+    info.origin = findOrigin(range_, info.notes);
   return info;
 }
 
@@ -468,7 +500,7 @@ public:
   {
     rows_.setShape(shape);
     for (const auto& column : columns)
-      columns_.push_back({column.cell, column.labels});
+      columns_.push_back({column.cell, column.factor, column.labels});
   }
 
 private:
@@ -493,6 +525,7 @@ private:
 
   struct SourceColumn {
     std::optional<std::size_t> cell;
+    double factor;
     std::vector<std::string> labels;
   };
 
@@ -502,7 +535,8 @@ private:
     if (!column.cell)
       return 0.0;
     const std::string_view cell = cells_[*column.cell];
-    return column.labels.empty() ? numberIn(cell) : findLabel(cell, column.labels);
+    return column.labels.empty() ? column.factor * numberIn(cell)
+                                 : findLabel(cell, column.labels);
   }
 
   [[noreturn]] void

@@ -70,6 +70,7 @@ finishIsopoints(const Isopoints& isopoints,
   Dataset samples = withoutCloud(part.getPoints());
   samples.cloud = fetchPoints(
       part.getPoints().cloud, part.getFirstPoint(), ends.points, communicator, report);
+  samples.cloud.header = part.getPoints().cloud.header;
   IsosurfaceResult result = finishIsosurface(samples,
                                              std::move(points),
                                              std::move(ends.edges),

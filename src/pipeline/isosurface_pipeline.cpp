@@ -14,6 +14,7 @@
 #include "pipeline/isopoint_filter.h"
 #include "pipeline/periodic_surface.h"
 #include "pipeline/zero_level.h"
+#include <pcl_uvol/common/map_projection.h>
 #include <pcl_uvol/levelset/level_set_evolution.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
@@ -234,6 +235,7 @@ finish(const Dataset& samples,
   {
     const StepTimer timer(report, "fields");
     pcl::toPCLPointCloud2(isopoints, result.surface.cloud);
+    result.surface.cloud.header.frame_id = samples.cloud.header.frame_id;
     keepIsovalues(isopoints, parameters.isosurface.isovalues, result.surface, report);
     choice.addFields(parameters.isosurface.interpolation == Interpolation::Auto,
                      result.surface);
@@ -276,15 +278,17 @@ finishIsosurface(const Dataset& samples,
   SurfaceTriangles found;
   found.vertices = std::move(isopoints);
   found.edges = std::move(edges);
-  return finish(samples,
-                found,
-                parameters,
-                nullptr,
-                sampling,
-                communicator,
-                threads,
-                std::move(report),
-                role);
+  IsosurfaceResult result = finish(samples,
+                                   found,
+                                   parameters,
+                                   nullptr,
+                                   sampling,
+                                   communicator,
+                                   threads,
+                                   std::move(report),
+                                   role);
+  setGlobeFields(result.surface);
+  return result;
 }
 
 pcl::Indices
@@ -358,8 +362,11 @@ IsosurfaceResult
 IsosurfacePipeline::run()
 {
   checkParameters(parameters_);
-  if (samples_ && detail::StretchAxes(parameters_.rotation).areTurned())
-    return runTurned();
+  if (samples_ && detail::StretchAxes(parameters_.rotation).areTurned()) {
+    IsosurfaceResult result = runTurned();
+    setGlobeFields(result.surface);
+    return result;
+  }
   std::optional<ScaleChoice> choice;
   IsosurfacePipelineParameters parameters = parameters_;
   parameters.isosurface = resolveParameters(&choice);
@@ -372,6 +379,7 @@ IsosurfacePipeline::run()
                                              : runOnSamples(parameters);
   }
   result.scale_choice = choice;
+  setGlobeFields(result.surface);
   return result;
 }
 

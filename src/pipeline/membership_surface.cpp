@@ -2,6 +2,7 @@
 #include "pipeline/membership_surface.h"
 
 #include "pipeline/finish_isosurface.h"
+#include <pcl_uvol/common/map_projection.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
 #include <utility>
@@ -50,6 +51,7 @@ extractMembershipSurface(const Dataset& samples,
                                  SurfaceRole::ClusterBorder);
   report = std::move(result.report);
   axes.turnBack(result.surface.cloud);
+  setGlobeFields(result.surface);
   return std::move(result.surface);
 }
 

@@ -4,6 +4,7 @@
 #include "common/scalar_field.h"
 #include "random_dataset.h"
 #include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/common/map_projection.h>
 #include <pcl_uvol/expressions/derived_fields.h>
 #include <pcl_uvol/io/dataset.h>
 
@@ -341,6 +342,52 @@ TEST_P(Netcdf, RefusesIndicesThatAreNone)
     }
     EXPECT_THROW(loadDataset(path("a.nc")), IOError) << index;
   }
+}
+
+TEST_P(Netcdf, PutsFilesOnOneMap)
+{
+  writeProfiles(path("a.nc"), GetParam());
+  const Dataset alone = loadDataset(path("a.nc"));
+  const auto map = findMap(alone);
+  ASSERT_TRUE(map);
+  EXPECT_EQ(41.0, map->latitude);
+  EXPECT_EQ(180.0, std::abs(map->longitude));
+  EXPECT_EQ(1.0, map->per_kilometre);
+  LoadOptions options;
+  options.map = MapProjection{179.0, 40.0, 1000.0};
+  const Dataset moved = loadDataset(path("a.nc"), options);
+  EXPECT_EQ(options.map->toText(), findMap(moved)->toText());
+  EXPECT_EQ(0.0, valuesOf(moved, "x")[0]);
+  EXPECT_EQ(0.0, valuesOf(moved, "y")[0]);
+  expectNear(
+      {0.0, 0.0, 2000.0 * degree, 2000.0 * degree, 1000.0 * degree, 1000.0 * degree},
+      valuesOf(moved, "y"));
+  options.map = MapProjection{179.0, 40.0}; // of the unit the region tells
+  EXPECT_EQ(1.0, findMap(loadDataset(path("a.nc"), options))->per_kilometre);
+}
+
+TEST_P(Netcdf, NamesFixesFarFromTheOthers)
+{
+  {
+    NetcdfWriter file(path("a.nc"), GetParam());
+    const int samples = file.dimension("obs", 40);
+    const int latitude = file.variable("latitude", NC_DOUBLE, {samples}),
+              longitude = file.variable("longitude", NC_DOUBLE, {samples});
+    file.beginData();
+    std::vector<double> north(40, 0.0), east(40, 0.0);
+    for (std::size_t i = 2; i < north.size(); ++i) {
+      north[i] = -43.0 + 0.02 * static_cast<double>(i);
+      east[i] = 8.0 + 0.02 * static_cast<double>(i);
+    }
+    file.put(latitude, north);
+    file.put(longitude, east);
+  }
+  const Dataset dataset = loadDataset(path("a.nc"));
+  EXPECT_NEAR(-42.59, findMap(dataset)->latitude, 0.03);
+  EXPECT_NEAR(8.41, findMap(dataset)->longitude, 0.03);
+  ASSERT_EQ(2u, dataset.notes.size());
+  EXPECT_EQ(0u, dataset.notes[1].find("2 of 40 positions are far from all others"));
+  EXPECT_NE(std::string::npos, dataset.notes[1].find("-where \"latitude != 0\""));
 }
 
 TEST_P(Netcdf, AnswersDamagedFilesByASentence)

@@ -5,11 +5,13 @@
 #include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/map_projection.h>
 #include <pcl_uvol/common/stage.h>
 
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +39,13 @@ struct PCL_UVOL_EXPORTS LoadOptions {
   bool cells = false;
   /** Told of "read", but not by what VTK reads. Default: nobody is. */
   ProgressCallback progress = {};
+  /** The map that longitude and latitude are put on, so that several files have one
+   * coordinate system; its members that are not set are chosen by the file. Not set:
+   * files of NetCDF choose their map, and the coordinates of all others stay as they
+   * are. With a map, also tables of longitude, latitude and a height or depth are
+   * mapped, and points with such fields, as surfaces have them, are put where their
+   * longitude and latitude say. */
+  std::optional<MapProjection> map = {};
 };
 
 /** \brief How a file is written. */
@@ -133,9 +142,12 @@ loadMesh(const std::string& path);
  * of an .stl at one place become one vertex.
  * \param[out] triangles stay empty for a file of points
  * \param path of the file
+ * \param map see LoadOptions::map
  * \throws IOError in one sentence */
 PCL_UVOL_EXPORTS Dataset
-loadMesh(const std::string& path, std::vector<Triangle>& triangles);
+loadMesh(const std::string& path,
+         std::vector<Triangle>& triangles,
+         const std::optional<MapProjection>& map = std::nullopt);
 
 /** \brief Write a mesh as .ply, .vtp or .vtkhdf with all fields of the vertices, as
  * .obj with their normals, or as .off or .stl, by the ending of the name. STL is
