@@ -30,10 +30,8 @@ Surface
 loadSurface(const std::string& path, Report& report)
 {
   Surface surface;
-  if (pcl_uvol::isMeshPath(path)) {
-    const pcl_uvol::StepTimer timer(report, "read");
-    surface.vertices = pcl_uvol::loadMesh(path, surface.triangles);
-  }
+  if (pcl_uvol::isMeshPath(path))
+    surface.vertices = uvol_tools::loadMesh(path, surface.triangles, report);
   else
     surface.vertices = uvol_tools::loadPoints(path, report);
   if (surface.vertices.cloud.width == 0)

@@ -285,8 +285,10 @@ describeCloud(const Options& options,
   const unsigned threads = options.threads();
   pcl_uvol::LoadOptions load = arguments.reading.makeLoadOptions();
   load.needs_coordinates = false;
+  load = uvol_tools::onMapOfCommand(load);
   pcl_uvol::Dataset dataset = pcl_uvol::loadDataset(input, load);
   report.warnings = dataset.notes;
+  uvol_tools::keepMap(input, dataset, load, report);
   if (!arguments.reading.getWhere().empty())
     report.count("removed_by_where",
                  pcl_uvol::selectRows(

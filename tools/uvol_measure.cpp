@@ -156,10 +156,9 @@ Surface
 loadSurface(const Options& options, const Arguments& arguments, Report& report)
 {
   Surface surface;
-  if (pcl_uvol::isMeshPath(arguments.input)) {
-    const pcl_uvol::StepTimer timer(report, "read");
-    *surface.vertices = pcl_uvol::loadMesh(arguments.input, surface.triangles);
-  }
+  if (pcl_uvol::isMeshPath(arguments.input))
+    *surface.vertices =
+        uvol_tools::loadMesh(arguments.input, surface.triangles, report);
   else
     *surface.vertices = uvol_tools::loadPoints(arguments.input, report);
   const auto& fields = surface.vertices->cloud.fields;

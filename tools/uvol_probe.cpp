@@ -5,6 +5,7 @@
 #include "interpolation/answer_summary.h"
 #include "interpolation/memory_need.h"
 #include "io/cell_loader.h"
+#include "io/formats.h"
 #include "io/memory_need.h"
 #include "neighbors/sampling.h"
 #include "shared/memory_guard.h"
@@ -156,6 +157,18 @@ findQuerySize(const Arguments& arguments, const Slice* lattice)
   return {places, sizeof(float) * 3 + sizeof(double)};
 }
 
+/** How samples are read: -xyz may be meant for the file of -points only. */
+pcl_uvol::LoadOptions
+findSampleOptions(const Arguments& arguments, const pcl_uvol::LoadOptions& all)
+{
+  pcl_uvol::LoadOptions options = all;
+  const std::string& points = arguments.queries.getPoints();
+  if (!points.empty() &&
+      pcl_uvol::io::adaptOptions(points, all).xyz_columns == all.xyz_columns)
+    options.xyz_columns = pcl_uvol::io::adaptOptions(arguments.input, all).xyz_columns;
+  return options;
+}
+
 /** What the tool holds beside the samples. */
 uvol_tools::MemoryGuard::Work
 forecastMemory(const Arguments& arguments,
@@ -258,20 +271,21 @@ run(int argc, char** argv, uvol_tools::SeriesStep* step)
   check(options, arguments);
   const Kind kind = arguments.queries.getKind();
   const pcl_uvol::LoadOptions load = arguments.reading.makeLoadOptions();
+  const pcl_uvol::LoadOptions of_samples = findSampleOptions(arguments, load);
   uvol_tools::MemoryGuard memory("Interpolation");
   if (arguments.reading.getWhere().empty())
     memory.checkFile(arguments.input,
                      forecastMemory(arguments, 1.0, findQuerySize(arguments, nullptr)),
-                     load);
+                     of_samples);
   else
-    memory.checkFile(arguments.input, nullptr, load);
+    memory.checkFile(arguments.input, nullptr, of_samples);
 
   Report report;
   uvol_tools::ProgressBar bar;
   report.progress = std::ref(bar);
   auto total = std::make_unique<StepTimer>(report, "total");
   Dataset samples = uvol_tools::loadPoints(
-      arguments.input, report, load, arguments.reading.getWhere());
+      arguments.input, report, of_samples, arguments.reading.getWhere());
   report.count("points", samples.cloud.width + report.getCount("removed_by_where"));
   const pcl_uvol::SamplesInBox boxed(samples,
                                      arguments.periodic.findSides(samples, report),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shared/point_files.h"
 
+#include "common/numbers.h"
 #include "common/printable.h"
 #include "common/scalar_field.h"
 #include "io/held_fields.h"
@@ -8,6 +9,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <optional>
 #include <sstream>
 
 namespace uvol_tools {
@@ -35,6 +38,47 @@ parseColumns(const std::string& columns)
   return parsed;
 }
 
+/** "auto", or "lon,lat" with a unit behind it or none; "": no map. */
+std::optional<pcl_uvol::MapProjection>
+parseMap(const std::string& text)
+{
+  if (text.empty())
+    return std::nullopt;
+  pcl_uvol::MapProjection map;
+  if (text == "auto")
+    return map;
+  std::vector<std::string> parts;
+  std::istringstream words(text);
+  for (std::string word; std::getline(words, word, ',');)
+    parts.push_back(word);
+  if (parts.size() == 3 && (parts[2] == "m" || parts[2] == "km")) {
+    map.per_kilometre = parts[2] == "m" ? 1000.0 : 1.0;
+    parts.pop_back();
+  }
+  if (parts.size() != 2 || text.back() == ',' ||
+      !pcl_uvol::parseNumber(parts[0], map.longitude) ||
+      !pcl_uvol::parseNumber(parts[1], map.latitude) ||
+      !(std::abs(map.longitude) <= 360.0) || !(std::abs(map.latitude) < 90.0))
+    throw UsageError(
+        "-map takes auto, or longitude and latitude in degrees, and m or km "
+        "behind them, as in -map -71.5,41,km, not " +
+        pcl_uvol::quoteText(text) + ".");
+  return map;
+}
+
+/** The map of the command. */
+struct CommandMap {
+  std::optional<pcl_uvol::MapProjection> map;
+  std::string first; ///< file that was read; "": none
+};
+
+CommandMap&
+getCommandMap()
+{
+  static CommandMap command; // there is one command in a process
+  return command;
+}
+
 } // namespace
 
 void
@@ -48,8 +92,15 @@ InputOptions::declare(Options& options)
   options.text("xyz",
                "x,y,z",
                xyz_,
-               "columns of a text file that hold the coordinates, by names or numbers "
-               "from 0 (default: by usual names)");
+               "columns of a text file that hold the coordinates, also of -points, by "
+               "names or numbers from 0 (default: by usual names)");
+  options
+      .text("map",
+            "auto|lon,lat",
+            map_,
+            "map longitude and latitude also of tables to kilometres or metres around "
+            "this origin (auto: their median); m or km may follow")
+      .rare();
   options
       .text("particles",
             "kind",
@@ -73,7 +124,55 @@ InputOptions::makeLoadOptions() const
   options.xyz_columns = parseColumns(xyz_);
   options.particles = particles_;
   options.cells = cells_;
+  options.map = parseMap(map_);
   return options;
+}
+
+pcl_uvol::LoadOptions
+onMapOfCommand(pcl_uvol::LoadOptions options)
+{
+  if (const auto& map = getCommandMap().map)
+    options.map = map;
+  return options;
+}
+
+void
+keepMap(const std::string& path,
+        const pcl_uvol::Dataset& points,
+        const pcl_uvol::LoadOptions& options,
+        pcl_uvol::Report& report)
+{
+  CommandMap& command = getCommandMap();
+  const auto map = pcl_uvol::findMap(points);
+  if (map && !options.map && !command.first.empty())
+    report.warnings.push_back(
+        "The positions of '" + pcl_uvol::printable(path) +
+        "' are mapped and those of '" + pcl_uvol::printable(command.first) +
+        "' are not: their coordinates are not in one system. Try: -map auto maps both, "
+        "-map lon,lat around a given origin.");
+  if (!map && options.map && !options.map->isComplete())
+    report.warnings.push_back(
+        "'" + pcl_uvol::printable(path) +
+        "' has no columns or fields of longitude and latitude in degrees: -map leaves "
+        "its coordinates as they are.");
+  if (!command.map)
+    command.map = map;
+  if (command.first.empty())
+    command.first = path;
+}
+
+pcl_uvol::Dataset
+loadMesh(const std::string& path,
+         std::vector<pcl_uvol::Triangle>& triangles,
+         pcl_uvol::Report& report)
+{
+  const pcl_uvol::StepTimer timer(report, "read");
+  const pcl_uvol::LoadOptions options = onMapOfCommand({});
+  pcl_uvol::Dataset mesh = pcl_uvol::loadMesh(path, triangles, options.map);
+  if (options.map) // says that the mesh was moved onto it
+    report.warnings.insert(report.warnings.end(), mesh.notes.begin(), mesh.notes.end());
+  keepMap(path, mesh, options, report);
+  return mesh;
 }
 
 pcl_uvol::Dataset
@@ -84,9 +183,11 @@ loadPoints(const std::string& path,
            unsigned threads)
 {
   const pcl_uvol::StepTimer timer(report, "read");
-  pcl_uvol::Dataset dataset = pcl_uvol::loadDataset(path, options);
+  const pcl_uvol::LoadOptions on_map = onMapOfCommand(options);
+  pcl_uvol::Dataset dataset = pcl_uvol::loadDataset(path, on_map);
   report.warnings.insert(
       report.warnings.end(), dataset.notes.begin(), dataset.notes.end());
+  keepMap(path, dataset, on_map, report);
   if (!where.empty())
     report.count("removed_by_where",
                  pcl_uvol::selectRows(dataset, where, {threads, ""}, report));

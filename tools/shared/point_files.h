@@ -16,8 +16,8 @@
 namespace uvol_tools {
 
 /** \brief What is read of a file: -where, the points for which that holds, -xyz, the
- * columns of a text file that hold the coordinates, -particles, the kind that is read
- * of a snapshot, and -cells. */
+ * columns of a text file that hold the coordinates, -map, the map that longitude and
+ * latitude are put on, -particles, the kind that is read of a snapshot, and -cells. */
 class InputOptions {
 public:
   void
@@ -38,11 +38,36 @@ public:
 
 private:
   const Options* options_ = nullptr; ///< of the tool
-  std::string where_, xyz_, particles_;
+  std::string where_, xyz_, map_, particles_;
   bool cells_ = false;
 };
 
-/** \brief Read a file, as a step of the report; its notes become warnings.
+/** \brief The options by which a file comes onto the map of the command: that of the
+ * first file that is on one. All files of a command, and of a series, have one
+ * coordinate system so. */
+pcl_uvol::LoadOptions
+onMapOfCommand(pcl_uvol::LoadOptions options);
+
+/** \brief Take the map of a file that was read for the files to come. It is warned of a
+ * file that chose its map when the files before are on none.
+ * \param options that the file was read with, from onMapOfCommand() */
+void
+keepMap(const std::string& path,
+        const pcl_uvol::Dataset& points,
+        const pcl_uvol::LoadOptions& options,
+        pcl_uvol::Report& report);
+
+/** \brief Read a mesh with its fields on the map of the command, as a step of the
+ * report.
+ * \param[out] triangles stay empty for a file of points
+ * \throws IOError */
+pcl_uvol::Dataset
+loadMesh(const std::string& path,
+         std::vector<pcl_uvol::Triangle>& triangles,
+         pcl_uvol::Report& report);
+
+/** \brief Read a file on the map of the command, as a step of the report; its notes
+ * become warnings.
  * \param where keep only the points for which that holds, see selectRows; "": all
  * \param threads for that; 0: all cores
  * \throws IOError, and InvalidArgument for a file without points */

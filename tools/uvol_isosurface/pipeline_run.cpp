@@ -8,6 +8,7 @@
 #include "pipeline/gap_filling.h"
 #include "pipeline/memory_need.h"
 #include "shared/measure_table.h"
+#include "shared/point_files.h"
 #include "uvol_isosurface/input_samples.h"
 #include <pcl_uvol/io/dataset.h>
 
@@ -124,13 +125,15 @@ runInMemory(const Options& options,
 IsosurfaceResult
 runFromDisk(const Options& options, const PipelineOptions& arguments, Report& report)
 {
-  pcl_uvol::PointStream file(arguments.input, arguments.makeLoadOptions());
+  const pcl_uvol::LoadOptions load = onMapOfCommand(arguments.makeLoadOptions());
+  pcl_uvol::PointStream file(arguments.input, load);
   pcl_uvol::IsosurfacePipelineParameters parameters = arguments.parameters;
   pcl_uvol::DerivedSource points(file, parameters.isosurface.field, options.threads());
   parameters.isosurface.field = points.getField();
   pcl_uvol::refuseNames(points.getHeader(), parameters.isosurface.field);
   checkOutput(arguments, points.getHeader());
   report.warnings = points.getHeader().notes;
+  keepMap(arguments.input, points.getHeader(), load, report);
   report.count("points", points.size());
   auto result = pcl_uvol::runPipelineOutOfCore(
       points, parameters, arguments.makeOutOfCoreSettings(options), report.progress);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "uvol_probe/probe_run.h"
 
+#include "io/formats.h"
 #include "io/lattice_file.h"
 #include "neighbors/periodic_box.h"
 #include "shared/point_files.h"
@@ -47,6 +48,9 @@ private:
 
   Place
   toSamples(const Place& place, const Place& origin) const;
+
+  void
+  addGlobeFields(Dataset& points) const;
 
   Facts
   writePoints(const InterpolatedFields& answers,
@@ -107,6 +111,18 @@ Runner::toSamples(const Place& place, const Place& origin) const
   return box_.toBox(query);
 }
 
+/** Longitude and latitude of points that do not have them, if the samples are on a map.
+ */
+void
+Runner::addGlobeFields(Dataset& points) const
+{
+  const auto map = findMap(samples_);
+  if (!map || pcl_uvol::findGlobeFields(points.cloud.fields))
+    return;
+  setMap(points, *map);
+  setGlobeFields(points);
+}
+
 /** Append answers to points and write them. */
 Facts
 Runner::writePoints(const InterpolatedFields& answers,
@@ -138,21 +154,16 @@ Runner::probePoints()
   };
   Dataset points;
   std::vector<pcl_uvol::Triangle> triangles;
-  if (ending(path) == ".ply" && ending(probe_.output) == ".ply") {
-    const StepTimer timer(report_, "read");
-    points = pcl_uvol::loadMesh(path, triangles);
-  }
-  else {
-    pcl_uvol::LoadOptions load;
-    if (ending(path) == ending(probe_.input))
-      load = probe_.load;
-    points = loadPoints(path, report_, load);
-  }
+  if (ending(path) == ".ply" && ending(probe_.output) == ".ply")
+    points = loadMesh(path, triangles, report_);
+  else
+    points = loadPoints(path, report_, pcl_uvol::io::adaptOptions(path, probe_.load));
   std::vector<Place> queries =
       pcl_uvol::detail::readPlaces(pcl_uvol::viewOf(points.cloud));
   for (Place& query : queries)
     query = toSamples(query, points.origin);
   const InterpolatedFields answers = answer(queries);
+  addGlobeFields(points);
   Facts facts = writePoints(answers, triangles, points);
   if (!triangles.empty())
     facts.emplace_back("triangles", static_cast<double>(triangles.size()));
@@ -177,6 +188,7 @@ Runner::writeLatticeAsPoints(const Slice& slice)
   Dataset points;
   points.double_coordinates = samples_.double_coordinates;
   setCoordinates(points, xyz);
+  addGlobeFields(points);
   const auto first = static_cast<std::ptrdiff_t>(answers.size);
   const std::vector<double> values(answers.values.begin(),
                                    answers.values.begin() + first);
@@ -220,7 +232,26 @@ Runner::listArrays() const
       arrays.push_back({name + "_gradient", Type::FLOAT32, 3});
   }
   arrays.push_back({"support", Type::UINT8, 1});
+  if (findMap(samples_))
+    for (const char* const name : {"longitude", "latitude"})
+      arrays.push_back({name, Type::FLOAT64, 1});
   return arrays;
+}
+
+/** Longitude (axis 0) or latitude of some places of a lattice. */
+std::vector<double>
+listDegrees(const pcl_uvol::MapProjection& map,
+            const Slice& slice,
+            std::size_t first,
+            std::size_t count,
+            std::size_t axis)
+{
+  std::vector<double> degrees;
+  for (std::size_t i = first; i < first + count; ++i) {
+    const Place place = slice.lattice.at(i);
+    degrees.push_back(map.toGlobe(place[0], place[1])[axis]);
+  }
+  return degrees;
 }
 
 /** Answer the queries of a lattice a block after the other, into a file. */
@@ -230,6 +261,7 @@ Runner::writeLattice(const Slice& slice)
   const auto arrays = listArrays();
   const std::vector<std::string> files = pcl_uvol::latticeFiles(probe_.output, arrays);
   checkDistinct({probe_.input}, files);
+  const auto map = findMap(samples_);
   std::vector<float> drawn;
   const auto take = [&](const pcl_uvol::PutNumbers& put,
                         std::size_t first,
@@ -251,7 +283,9 @@ Runner::writeLattice(const Slice& slice)
       if (probe_.parameters.gradients)
         next(answers.gradients.data() + 3 * f * count);
     }
-    put(array, first, count, answers.support.data());
+    put(array++, first, count, answers.support.data());
+    for (std::size_t axis = 0; map && axis < 2; ++axis)
+      put(array++, first, count, listDegrees(*map, slice, first, count, axis).data());
   };
   saveLattice(
       probe_.output, slice.lattice, arrays, [&](const pcl_uvol::PutNumbers& put) {

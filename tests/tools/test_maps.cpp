@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One coordinate system for all files of a command, and degrees of what it writes.
+#include "support/environment.h"
+#include "tools/tool_test.h"
+#include <pcl_uvol/common/map_projection.h>
+#include <pcl_uvol/io/dataset.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <iomanip>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace pcl_uvol;
+using uvol_test::fieldOf;
+
+/** A table of a temperature that falls with the depth, in a box of half a degree. */
+std::string
+makeTable(double east, double north, std::size_t count)
+{
+  std::ostringstream text;
+  text << std::setprecision(10) << "lon,lat,depth,T\n";
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto part = [&](std::size_t step) {
+      return static_cast<double>(i * step % 997) / 997.0;
+    };
+    const double depth = 100.0 * part(211);
+    text << east + 0.5 * part(379) << ',' << north + 0.5 * part(617) << ',' << depth
+         << ',' << 20.0 - 0.1 * depth << '\n';
+  }
+  return text.str();
+}
+
+class Maps : public uvol_test::FolderTest {
+protected:
+  std::string
+  runWell(const std::string& arguments) const
+  {
+    const auto result = runTool(arguments);
+    EXPECT_EQ(0, result.exit_code) << arguments << ": " << result.err;
+    return result.out + result.err;
+  }
+
+  Dataset
+  load(const std::string& name) const
+  {
+    return loadDataset(folder_ / name);
+  }
+};
+
+/** A table of positions that a data set has. */
+std::string
+makeQueries(const Dataset& samples, const char* east, const char* north)
+{
+  const auto longitude = fieldOf(samples, east), latitude = fieldOf(samples, north),
+             z = fieldOf(samples, "z");
+  std::ostringstream text;
+  text << std::setprecision(17) << "longitude,latitude,depth\n";
+  for (std::size_t i = 0; i < longitude.size(); i += longitude.size() / 50)
+    if (std::isfinite(longitude[i] + latitude[i] + z[i]))
+      text << longitude[i] << ',' << latitude[i] << ',' << -z[i] << '\n';
+  return text.str();
+}
+
+TEST_F(Maps, QueriesComeOntoTheMapOfTheSamples)
+{
+  write("a.csv", makeTable(8.0, -43.0, 900));
+  write("b.csv", "lon,lat,depth\n8.1,-42.9,40\n8.4,-42.6,60\n");
+  runWell("probe a.csv out.csv -map auto -scale auto -field T -points b.csv");
+  const Dataset out = load("out.csv");
+  const auto values = fieldOf(out, "T"), z = fieldOf(out, "z");
+  ASSERT_EQ(2u, values.size());
+  EXPECT_NEAR(16.0, values[0], 0.1);
+  EXPECT_NEAR(14.0, values[1], 0.1);
+  EXPECT_EQ((std::vector<double>{-40.0, -60.0}), z);
+  EXPECT_EQ((std::vector<double>{8.1, 8.4}), fieldOf(out, "lon"));
+}
+
+TEST_F(Maps, SurfacesSlicesAndGridsHaveDegrees)
+{
+  write("a.csv", makeTable(179.75, -43.0, 900));
+  const std::string options = " -map auto -scale auto -field T";
+  runWell("isosurface a.csv out.ply -iso 15" + options);
+  runWell("probe a.csv line.csv -line -10,-10,-50,10,10,-50 -n 5" + options);
+  runWell("probe a.csv plane.vti -plane z=-50 -size 8" + options);
+  for (const char* const name : {"out.ply", "line.csv"}) {
+    const Dataset points = load(name);
+    const auto map = findMap(points);
+    ASSERT_TRUE(map) << name;
+    const bool is_surface = name[0] == 'o';
+    const auto east = fieldOf(points, is_surface ? "lon" : "longitude"),
+               north = fieldOf(points, is_surface ? "lat" : "latitude"),
+               x = fieldOf(points, "x"), y = fieldOf(points, "y");
+    ASSERT_FALSE(east.empty());
+    for (std::size_t i = 0; i < east.size(); ++i) {
+      const auto place = map->toGlobe(x[i], y[i]);
+      EXPECT_NEAR(0.0, std::remainder(place[0] - east[i], 360.0), 1e-6);
+      EXPECT_NEAR(place[1], north[i], 1e-6);
+      EXPECT_LE(std::abs(std::remainder(east[i] - 180.0, 360.0)), 0.26); // not at 0
+    }
+  }
+  const std::string plane = uvol_test::readFile(folder_ / "plane.vti");
+  for (const char* const name : {"\"longitude\"", "\"latitude\""})
+    EXPECT_NE(std::string::npos, plane.find(name)) << name;
+}
+
+TEST_F(Maps, FilesOfASeriesAreOnOneMap)
+{
+  write("a_1.csv", makeTable(8.0, -43.0, 300));
+  write("a_2.csv", makeTable(9.0, -42.0, 300));
+  runWell("convert 'a_{}.csv' 'b_{}.vtp' -map auto");
+  const auto first = findMap(load("b_1.vtp")), second = findMap(load("b_2.vtp"));
+  ASSERT_TRUE(first && second);
+  EXPECT_EQ(first->toText(), second->toText());
+  EXPECT_NEAR(8.25, first->longitude, 0.02);
+  runWell("convert a_2.csv c.vtp -map 8,-43,m");
+  EXPECT_EQ("+proj=eqc +lon_0=8 +lat_0=-43 +lat_ts=-43 +R=6371008.8 +units=m",
+            findMap(load("c.vtp"))->toText());
+}
+
+TEST_F(Maps, SurfacesOnDifferentMapsAreCompared)
+{
+  write("a.csv", makeTable(8.0, -43.0, 900));
+  const std::string options = " -iso 15 -scale 1,1,1000 -field T -map ";
+  runWell("isosurface a.csv b.ply" + options + "8.25,-42.75,km");
+  runWell("isosurface a.csv c.ply" + options + "8.2,-42.75,km");
+  EXPECT_NEAR(
+      4.08, fieldOf(load("c.ply"), "x")[0] - fieldOf(load("b.ply"), "x")[0], 0.01);
+  runWell("compare b.ply c.ply -o d.csv");
+  for (const double distance : fieldOf(load("d.csv"), "distance"))
+    EXPECT_LT(std::abs(distance), 1e-3);
+}
+
+TEST_F(Maps, WarnsOfFilesInDifferentSystems)
+{
+  write("a.csv", "x,y,z,T\n0,0,0,1\n1,0,0,2\n0,1,0,3\n0,0,1,4\n1,1,1,5\n");
+  const std::string output = runWell("info a.csv -map auto");
+  EXPECT_NE(std::string::npos, output.find("has no columns or fields of longitude"));
+}
+
+TEST_F(Maps, RefusesMapsThatAreNone)
+{
+  write("a.csv", makeTable(8.0, -43.0, 20));
+  for (const char* const map :
+       {"8", "8,-43,ft", "8,-43,m,", "8,91", "a,b", "nan,1", ","}) {
+    const auto result = runTool("convert a.csv b.ply -map " + std::string(map));
+    EXPECT_EQ(2, result.exit_code) << map;
+    EXPECT_NE(std::string::npos, result.err.find("-map takes auto, or longitude"))
+        << map << ": " << result.err;
+    EXPECT_FALSE(exists("b.ply")) << map;
+  }
+}
+
+/** A file of the collection beside the real data; "": it is not there. */
+std::string
+wildFile(const std::string& name)
+{
+  const std::string data = uvol_test::dataFolder();
+  const std::string path = data.empty() ? "" : data + "/../wild/" + name;
+  return !path.empty() && std::filesystem::exists(path) ? path : "";
+}
+
+TEST_F(Maps, ValuesAtPositionsOfAGlider)
+{
+  const std::string glider = wildFile("real/pyglider_eva035_timeseries.nc");
+  if (glider.empty())
+    GTEST_SKIP() << "the file of a glider is not there ($PCL_UVOL_DATA)";
+  write("b.csv", makeQueries(loadDataset(glider), "longitude", "latitude"));
+  runWell("probe '" + glider +
+          "' out.csv -field temperature -scale auto -points b.csv");
+  const auto values = fieldOf(load("out.csv"), "temperature");
+  ASSERT_GE(values.size(), 45u);
+  std::size_t found = 0;
+  for (const double value : values)
+    found += std::isfinite(value);
+  EXPECT_GE(10 * found, 9 * values.size());
+}
+
+TEST_F(Maps, TwoLostFixesDoNotChangeAVolume)
+{
+  const std::string good = wildFile("made/zz_ok.nc"), two = wildFile("made/zz_two.nc");
+  if (good.empty() || two.empty())
+    GTEST_SKIP() << "the files are not there ($PCL_UVOL_DATA)";
+  const auto origin = [](const std::string& path) {
+    const Dataset samples = loadDataset(path);
+    return std::pair(*findMap(samples), samples.notes);
+  };
+  const auto [map, notes] = origin(good);
+  const auto [moved, with] = origin(two);
+  EXPECT_NEAR(map.longitude, moved.longitude, 0.01);
+  EXPECT_NEAR(map.latitude, moved.latitude, 0.01);
+  EXPECT_EQ(map.per_kilometre, moved.per_kilometre);
+  EXPECT_EQ(notes.size() + 1, with.size());
+  EXPECT_EQ(0u, with[1].find("2 of 1200 positions are far from all others"));
+}
+
+} // namespace
