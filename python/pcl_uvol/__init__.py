@@ -12,6 +12,7 @@ from ._errors import DivergedError, FieldError, ResultWarning
 from ._files import read, read_mesh, read_volume, write
 from ._interpolation import Answers, Interpolator
 from ._lattice import Lattice
+from ._map import Map
 from ._measures import (Comparison, Distances, FieldDifference, FieldFigures, Figure, Measures, PieceFigures, compare,
                         measure)
 from ._pictures import Picture, raytrace
@@ -33,6 +34,7 @@ __all__ = [
     "Figure",
     "Interpolator",
     "Lattice",
+    "Map",
     "Measures",
     "Mesh",
     "Picture",

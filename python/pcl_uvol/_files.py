@@ -3,13 +3,13 @@
 
 import os
 
-from . import _arrays, _parameters, _report
+from . import _arrays, _map, _parameters, _report
 from ._progress import listening
 from ._samples import Samples, as_samples
 
 
 @_parameters.with_proposals
-def read(path, xyz=("", "", ""), particles="", cells=False, progress=None):
+def read(path, xyz=("", "", ""), particles="", cells=False, progress=None, map=None):
     """Read samples from a file, as the tools do.
 
     Parameters
@@ -32,6 +32,10 @@ def read(path, xyz=("", "", ""), particles="", cells=False, progress=None):
         their data instead of points.
     progress : bool or callable, optional
         See `isosurface`; files of VTK tell none.
+    map : "auto", tuple or Map, optional
+        Origin (longitude, latitude) of the map that longitude and latitude are put on, with
+        "m" or "km" behind them; "auto": their median. By default files of NetCDF choose it,
+        and tables keep degrees. `map=samples.map` puts several files on one map.
 
     Returns
     -------
@@ -60,7 +64,7 @@ def read(path, xyz=("", "", ""), particles="", cells=False, progress=None):
         raise ValueError(f"xyz names {len(columns)} columns: there must be three.")
     with listening(progress) as listener:
         dataset = _io.read(os.fsencode(path), columns, _parameters.text(str(particles), "particles"), _parameters.flag(cells, "cells"),
-                           listener)
+                           _map.wanted(map), listener)
     _report.tell(dataset.notes)
     return Samples._of(dataset)
 
@@ -101,13 +105,15 @@ def write(path, points, fields=None, triangles=None, ascii=False, progress=None)
 
 
 @_parameters.with_proposals
-def read_mesh(path):
+def read_mesh(path, map=None):
     """Read a mesh with all fields of its vertices, as `save` writes it.
 
     Parameters
     ----------
     path : str or os.PathLike
         ply, vtp, vtkhdf, obj, off or stl, by the ending.
+    map : "auto", tuple or Map, optional
+        As that of `read`, for vertices with fields of longitude and latitude.
 
     Returns
     -------
@@ -125,7 +131,7 @@ def read_mesh(path):
     array([[0, 1, 2]], dtype=uint32)
     """
     from . import _io
-    dataset, triangles = _io.read_mesh(os.fsencode(path))
+    dataset, triangles = _io.read_mesh(os.fsencode(path), _map.wanted(map))
     _report.tell(dataset.notes)
     return Samples._of(dataset), triangles
 

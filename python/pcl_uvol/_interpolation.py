@@ -205,6 +205,8 @@ class Interpolator:
         >>> answers.values.round(4), answers.gradients[0].round(3) + 0.0, answers.support
         (array([ 1., nan]), array([2., 0., 0.]), array([1, 4], dtype=uint8))
         """
+        if isinstance(queries, Points):
+            queries = queries._on_map_of(self._placed)
         places = _arrays.as_array(queries.points if isinstance(queries, Points) else queries, "queries")
         if places.ndim == 0 or places.shape[-1] != 3:
             raise ValueError(f"queries has the shape {places.shape}: it must be (..., 3), a row for each place.")
@@ -259,7 +261,7 @@ class Interpolator:
         >>> uvol.Interpolator(points, {"rho": points[:, 0]}).probe([[0.5, 0.5, 0.5]]).keys()
         ['rho', 'rho_error', 'rho_gradient', 'support']
         """
-        points = as_samples(points, None)
+        points = as_samples(points, None)._on_map_of(self._placed)
         with listening(progress) as listener:
             dataset, report = self._core.probe(points._dataset, self._threads_of(threads), listener)
         _report.tell(report["warnings"])
@@ -418,6 +420,8 @@ class Interpolator:
             if "gradients" in found:
                 columns[name + "_gradient"] = found["gradients"][number]
         columns["support"] = found["support"]
+        if self._placed.map is not None:
+            columns["longitude"], columns["latitude"] = self._placed.map.to_globe(places[:, 0], places[:, 1])
         short = [name for name in self.fields if self._core.is_short(name)]
         return Lattice(places, counts, steps, columns, found["report"], self.parameters, short, self._find_ranges(),
                        self._placed)

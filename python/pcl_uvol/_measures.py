@@ -190,7 +190,7 @@ def measure(surface, *, samples=None, curved=True, find_intersections=False, thr
     if samples is None:
         samples = getattr(surface, "_samples", None) if len(triangles) else None
     else:
-        samples = as_samples(samples, None)
+        samples = as_samples(samples, None)._on_map_of(vertices)
     parameters = {"curved": _parameters.flag(curved, "curved"),
                   "find_intersections": _parameters.flag(find_intersections, "find_intersections")}
     made_with = getattr(surface, "parameters", {})
@@ -314,6 +314,7 @@ def compare(a, b, *, threads=0, progress=None):
     (0.25, [-0.25, -0.25, -0.25])
     """
     (first, first_triangles), (second, second_triangles) = _parts(a, "a"), _parts(b, "b")
+    second = second._on_map_of(first)
     with listening(progress) as listener:
         forth, back, surface = _core.compare(first._dataset, first_triangles, second._dataset, second_triangles,
                                              _parameters.count(threads, "threads"), listener)

@@ -5,7 +5,7 @@ import os
 
 import numpy as np
 
-from . import _arrays, _parameters, _report
+from . import _arrays, _map, _parameters, _report
 from ._bridges import Bridges
 from ._errors import FieldError
 from ._progress import listening
@@ -68,6 +68,29 @@ class Points(Bridges):
         [0.0, 0.0, 0.0]
         """
         return np.array(self._dataset.box)
+
+    @property
+    def map(self):
+        """Map or None: the map that x and y are on, if they were computed of longitude and
+        latitude.
+
+        Examples
+        --------
+        >>> import tempfile
+        >>> path = tempfile.mkdtemp() + "/points.csv"
+        >>> with open(path, "w") as file:
+        ...     _ = file.write("lon,lat,depth,T\\n8,-43,5,12\\n9,-42,10,11\\n8.5,-42.5,20,10\\n")
+        >>> samples = uvol.read(path, map="auto")
+        >>> samples.map, samples.points[2].tolist()
+        (Map(longitude=8.5, latitude=-42.5, unit='km'), [0.0, 0.0, -20.0])
+        """
+        return _map.of(self._dataset)
+
+    def _on_map_of(self, other):
+        """These points on the map of others, if both are on one."""
+        if self._dataset.map in (None, other._dataset.map) or other._dataset.map is None:
+            return self
+        return Points(self._dataset.on_map(other._dataset.map))
 
     @property
     def points(self):

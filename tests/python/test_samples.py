@@ -542,3 +542,62 @@ def test_docstrings_name_all_formats(run_tool):
                            "Meshes, written": uvol.write}.items():
         for ending in re.findall(r"[.](\w+)", lines[what].partition(", by many")[0]):
             assert re.search(rf"\b{ending}\b", function.__doc__), ending
+
+
+def write_positions(path, east, north, count=400):
+    """A table of a temperature that falls with the depth."""
+    part = [np.arange(count) * step % 997 / 997 for step in (379, 617, 211)]
+    depth = 100 * part[2]
+    rows = np.stack([east + 0.5 * part[0], north + 0.5 * part[1], depth, 20 - 0.1 * depth], axis=1)
+    np.savetxt(path, rows, delimiter=",", header="lon,lat,depth,T", comments="")
+    return rows
+
+
+@pytest.mark.filterwarnings("ignore::pcl_uvol.ResultWarning")
+def test_longitude_and_latitude_are_put_on_a_map(tmp_path):
+    rows = write_positions(tmp_path / "a.csv", 179.75, -43)
+    assert uvol.read(tmp_path / "a.csv").map is None
+    samples = uvol.read(tmp_path / "a.csv", map="auto")
+    assert abs(abs(samples.map.longitude) - 180) < 0.02 and abs(samples.map.latitude + 42.75) < 0.02
+    x, y = samples.map.to_map(rows[:, 0], rows[:, 1])
+    assert np.allclose(samples.points, np.stack([x, y, -rows[:, 2]], axis=1), atol=1e-2)
+    assert samples["lon"].tolist() == rows[:, 0].tolist()
+    for same in (pickle.loads(pickle.dumps(samples)), samples.take([1, 2]), samples.compute("2*T"), samples.where("T > 15")):
+        assert same.map == samples.map
+    given = uvol.read(tmp_path / "a.csv", map=(179.75, -43, "km"))
+    assert given.map == (179.75, -43, "km")
+    assert np.allclose(given.points[0, :2], 0)
+
+
+@pytest.mark.filterwarnings("ignore::pcl_uvol.ResultWarning")
+def test_results_have_longitude_and_latitude(tmp_path):
+    write_positions(tmp_path / "a.csv", 8, -43)
+    samples = uvol.read(tmp_path / "a.csv", map="auto")
+    surface = uvol.isosurface(samples, field="T", iso=15, scale=(1, 1, 1000))
+    east, north = surface.map.to_globe(surface.points[:, 0], surface.points[:, 1])
+    assert np.allclose(surface["lon"], east) and np.allclose(surface["lat"], north)
+    model = uvol.Interpolator(samples, field="T", scale=(1, 1, 1000))
+    slice_ = model.slice("z=-50", 4)
+    assert np.allclose(samples.map.to_map(slice_["longitude"], slice_["latitude"])[0], slice_.points[..., 0])
+    probed = model.probe([[0, 0, -50]])
+    assert probed["longitude"].tolist() == [samples.map.longitude]
+    surface.save(tmp_path / "b.ply")
+    assert uvol.read(tmp_path / "b.ply").map == samples.map
+
+
+@pytest.mark.filterwarnings("ignore::pcl_uvol.ResultWarning")
+def test_queries_on_another_map_are_the_same_positions(tmp_path):
+    write_positions(tmp_path / "a.csv", 8, -43)
+    samples = uvol.read(tmp_path / "a.csv", map="auto")
+    moved = uvol.read(tmp_path / "a.csv", map=(7, -42, "km"))
+    model = uvol.Interpolator(samples, field="T", scale=(1, 1, 1000), model="nearest")
+    assert model(moved)[0].tolist() == samples["T"].tolist()
+    assert uvol.compare(samples, moved).largest < 0.1
+
+
+@pytest.mark.parametrize("wrong", ["here", (1,), (1, 2, "ft"), (1, 2, "km", 3), 5])
+def test_maps_that_are_none_are_refused(tmp_path, wrong):
+    with pytest.raises(ValueError, match="map is"):
+        uvol.read(tmp_path / "a.csv", map=wrong)
+    with pytest.raises(ValueError, match="degrees"):
+        uvol.Map(0, 95).to_map(0, 0)

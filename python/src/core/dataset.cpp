@@ -225,6 +225,7 @@ takePoints(
 {
   auto result = std::make_shared<Dataset>(withoutCloud(dataset));
   result->cloud = makeRecords(dataset.cloud.fields, 0);
+  result->cloud.header = dataset.cloud.header;
   const std::size_t step = dataset.cloud.point_step;
   result->cloud.point_step = static_cast<pcl::uindex_t>(step);
   resizePoints(result->cloud, static_cast<std::size_t>(indices.size()));
@@ -237,6 +238,40 @@ takePoints(
                 step);
   }
   return result;
+}
+
+/** The map that the coordinates are on. */
+MapNumbers
+getMap(const Dataset& dataset)
+{
+  const auto map = findMap(dataset);
+  if (!map)
+    return std::nullopt;
+  return std::array<double, 3>{{map->longitude, map->latitude, map->per_kilometre}};
+}
+
+/** The points on another map. */
+DatasetPtr
+putOnMap(const Dataset& dataset, const MapNumbers& map)
+{
+  auto result = std::make_shared<Dataset>(dataset);
+  changeMap(*result, *toMap(map));
+  return result;
+}
+
+/** Pairs of numbers, a row each, from the globe to a map or back. */
+template <std::array<double, 2> (MapProjection::*transform)(double, double) const>
+py::array_t<double>
+transformPairs(
+    const MapNumbers& map,
+    const py::array_t<double, py::array::c_style | py::array::forcecast>& pairs)
+{
+  const MapProjection projection = *toMap(map);
+  std::vector<double> found;
+  for (py::ssize_t i = 0; i < pairs.shape(0); ++i)
+    for (const double number : (projection.*transform)(pairs.at(i, 0), pairs.at(i, 1)))
+      found.push_back(number);
+  return toArray(std::move(found), {pairs.shape(0), 2});
 }
 
 /** Say that an int32 field holds numbers of names. */
@@ -289,7 +324,8 @@ getState(const Dataset& dataset)
       dataset.has_coordinates,
       dataset.notes,
       listLabels(dataset, [](const std::string& name) { return py::bytes(name); }),
-      dataset.box);
+      dataset.box,
+      dataset.cloud.header.frame_id);
 }
 
 DatasetPtr
@@ -319,6 +355,7 @@ setState(const py::tuple& state)
   dataset.notes = state[7].cast<std::vector<std::string>>();
   dataset.labels = state[8].cast<LabelNames>();
   dataset.box = state[9].cast<std::array<double, 3>>();
+  cloud.header.frame_id = state[10].cast<std::string>();
   return share(std::move(dataset));
 }
 
@@ -339,6 +376,8 @@ bindDataset(py::module_& module)
       .def_readonly("has_coordinates", &Dataset::has_coordinates)
       .def_readonly("notes", &Dataset::notes)
       .def_readonly("box", &Dataset::box)
+      .def_property_readonly("map", &getMap)
+      .def("on_map", &putOnMap)
       .def_property_readonly("labels",
                              [](const Dataset& dataset) {
                                return listLabels(dataset, [](const std::string& name) {
@@ -354,6 +393,8 @@ bindDataset(py::module_& module)
       .def("take", &takePoints)
       .def("read_scalar", &readScalar)
       .def(py::pickle(&getState, &setState));
+  module.def("to_map", &transformPairs<&MapProjection::toMap>);
+  module.def("to_globe", &transformPairs<&MapProjection::toGlobe>);
 }
 
 } // namespace pcl_uvol::python

@@ -128,6 +128,11 @@ public:
       AnswerSummary summary(view_, own_, interpolator_->getNames());
       summary.add(answers);
       summary.warn(report);
+      if (const auto map = findMap(*samples_);
+          map && !findGlobeFields(result->cloud.fields)) {
+        setMap(*result, *map);
+        setGlobeFields(*result);
+      }
       appendFields(answers, result->cloud);
     });
     return py::make_tuple(result, toDict(report));

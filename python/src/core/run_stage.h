@@ -21,6 +21,7 @@ withCloud(const Dataset& dataset, Cloud&& cloud)
 {
   auto result = std::make_shared<Dataset>(withoutCloud(dataset));
   result->cloud = std::move(cloud);
+  result->cloud.header = dataset.cloud.header;
   return result;
 }
 

@@ -27,12 +27,14 @@ readPoints(const std::string& path,
            const std::array<std::string, 3>& xyz_columns,
            const std::string& particles,
            bool cells,
+           const MapNumbers& map,
            const py::object& progress)
 {
   LoadOptions options;
   options.xyz_columns = xyz_columns;
   options.particles = particles;
   options.cells = cells;
+  options.map = toMap(map);
   DatasetPtr points;
   runInterruptibly(progress, [&](const ProgressCallback& callback) {
     options.progress = callback;
@@ -42,13 +44,13 @@ readPoints(const std::string& path,
 }
 
 py::tuple
-readMesh(const std::string& path)
+readMesh(const std::string& path, const MapNumbers& map)
 {
   DatasetPtr vertices;
   std::vector<Triangle> triangles;
   {
     const py::gil_scoped_release unlocked;
-    vertices = share(loadMesh(path, triangles));
+    vertices = share(loadMesh(path, triangles, toMap(map)));
   }
   return py::make_tuple(vertices, toIndices(std::move(triangles)));
 }

@@ -3,10 +3,13 @@
 #pragma once
 
 #include <pcl_uvol/common/dataset.h>
+#include <pcl_uvol/common/map_projection.h>
 #include <pcl_uvol/common/stage.h>
 
+#include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <utility>
@@ -44,6 +47,17 @@ toIndices(std::vector<Triangle>&& triangles)
 {
   const auto count = static_cast<pybind11::ssize_t>(triangles.size());
   return toArrayOf<std::uint32_t>(std::move(triangles), {count, 3});
+}
+
+/** \brief Longitude, latitude and coordinates per kilometre of a map; none without. */
+using MapNumbers = std::optional<std::array<double, 3>>;
+
+inline std::optional<MapProjection>
+toMap(const MapNumbers& numbers)
+{
+  if (!numbers)
+    return std::nullopt;
+  return MapProjection{(*numbers)[0], (*numbers)[1], (*numbers)[2]};
 }
 
 /** \brief The other way: a copy.
