@@ -99,6 +99,20 @@ listPlaces(const pcl::PointCloud<PointIso>& points)
   return places;
 }
 
+/** How far outside of the hull of measured samples others are predicted: half a gap.
+ * \param spacing of predicted samples */
+double
+findReach(const SamplingSummary& sampling, double spacing)
+{
+  // Where samples are all around, gaps are about as wide as samples are apart: the
+  // widest spacing is that along one axis, and may be far more than the gap next to the
+  // hull.
+  const double half_gap_of_volume = 0.5 * static_cast<double>(sampling.along);
+  const double reach = hull_tolerance * spacing;
+  return sampling.most == LocalDimension::Volume ? std::min(reach, half_gap_of_volume)
+                                                 : reach;
+}
+
 /** Whether so many of the isopoints in gaps tell of gaps in the sampling. */
 bool
 areGaps(std::size_t in_gaps, std::size_t isopoints)
@@ -188,8 +202,9 @@ FilledGaps::FilledGaps(const std::shared_ptr<const Dataset>& samples,
       findSpacing(roots, extraction.getEdges(), parameters, threads, report.progress);
   filled_ = samples;
   if (summary_.spacing > 0.0) {
-    hull_ = std::make_unique<SampleHull>(
-        *measured_, hull_tolerance * summary_.spacing * measured_->getUnit().factor);
+    hull_ = std::make_unique<SampleHull>(*measured_,
+                                         findReach(sampling_, summary_.spacing) *
+                                             measured_->getUnit().factor);
     krigeComposites(parameters, threads, report.progress);
     compareFits(is_in_gap, parameters, extraction, threads, report.progress);
     predictBetween(roots, is_in_gap, parameters, threads, report);

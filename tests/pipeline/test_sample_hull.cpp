@@ -18,7 +18,7 @@ namespace {
 using namespace pcl_uvol;
 using Eigen::Vector3f;
 
-constexpr float tolerance = 0.01f;
+constexpr float reach = 0.01f;
 
 /** In units of the places that are asked for, which the samples have a power of two of.
  */
@@ -34,7 +34,7 @@ public:
     Report report;
     samples_ = SampleSet::build(xyz.data(), 3, all, {{1.0f, 1.0f, 1.0f}}, 1, report);
     hull_ = std::make_unique<detail::SampleHull>(
-        *samples_, static_cast<double>(tolerance * samples_->getUnit().factor));
+        *samples_, static_cast<double>(reach * samples_->getUnit().factor));
   }
 
   bool
@@ -86,16 +86,22 @@ TEST(SampleHull, IsThatOfABoxTurnedAnyHow)
       EXPECT_TRUE(hull.contains(sample));
     for (int i = 0; i < 4000; ++i) {
       const Vector3f asked = places.next(1.3f);
-      const float beyond =
-          ((asked.cwiseAbs() - Vector3f::Ones()).cwiseProduct(sides)).maxCoeff();
-      if (std::abs(beyond - tolerance) > 1e-4f) { // rounding of coordinates about 40
-        EXPECT_EQ(beyond < tolerance, hull.contains(place(asked))) << beyond;
+      const float beyond = (asked.cwiseAbs() - Vector3f::Ones())
+                               .cwiseMax(0.0f)
+                               .cwiseProduct(sides)
+                               .norm();
+      const bool is_contained = hull.contains(place(asked));
+      if (beyond > reach + 1e-4f) { // rounding of coordinates about 40
+        EXPECT_FALSE(is_contained) << beyond;
+      }
+      if (beyond == 0.0f) {
+        EXPECT_TRUE(is_contained) << beyond;
       }
     }
   }
 }
 
-TEST(SampleHull, OfABallIsWithinTheToleranceOfIt)
+TEST(SampleHull, OfABallIsWithinTheReachOfIt)
 {
   Places places;
   std::vector<Vector3f> samples;
@@ -108,7 +114,7 @@ TEST(SampleHull, OfABallIsWithinTheToleranceOfIt)
     EXPECT_TRUE(hull.contains(sample));
   for (int i = 0; i < 4000; ++i) {
     const Vector3f asked = places.next(1.2f);
-    if (asked.norm() > 1.0f + 2.0f * tolerance) {
+    if (asked.norm() > 1.0f + reach) {
       EXPECT_FALSE(hull.contains(asked)) << asked.norm();
     }
   }
@@ -123,7 +129,7 @@ TEST(SampleHull, HoldsSamplesThatAreCloseToItsFirstFaces)
     std::vector<Vector3f> samples;
     samples.reserve(40);
     for (int i = 0; i < 40; ++i)
-      samples.push_back(10.0f * tolerance * places.next(1.0f).normalized());
+      samples.push_back(10.0f * reach * places.next(1.0f).normalized());
     const Hull hull(samples);
     for (const Vector3f& sample : samples)
       EXPECT_TRUE(hull.contains(sample)) << ball;
@@ -143,9 +149,26 @@ TEST(SampleHull, OfSamplesOnAPlaneOrALineOrAloneIsThin)
     const Hull hull(samples);
     for (const Vector3f& sample : samples) {
       EXPECT_TRUE(hull.contains(sample));
-      EXPECT_TRUE(hull.contains(sample + 0.5f * tolerance * Vector3f::UnitZ()));
-      EXPECT_FALSE(hull.contains(sample + 3.0f * tolerance * Vector3f::UnitZ()));
+      EXPECT_FALSE(hull.contains(sample + 1.01f * reach * Vector3f::UnitZ()));
     }
+  }
+}
+
+/** The planes of the faces meet far outside where the hull has a sharp edge. */
+TEST(SampleHull, EndsNextToItsSharpEdges)
+{
+  std::vector<Vector3f> samples; // a lens a hundredth as high as it is wide
+  for (int i = 0; i < 200; ++i) {
+    const float angle = 0.01f * static_cast<float>(M_PI) * static_cast<float>(i);
+    samples.emplace_back(std::cos(angle), std::sin(angle), 0.0f);
+  }
+  samples.emplace_back(0.0f, 0.0f, reach);
+  samples.emplace_back(0.0f, 0.0f, -reach);
+  const Hull hull(samples);
+  for (int i = 0; i < 200; ++i) {
+    EXPECT_TRUE(hull.contains(samples[static_cast<std::size_t>(i)]));
+    const Vector3f out = samples[static_cast<std::size_t>(i)];
+    EXPECT_FALSE(hull.contains((1.0f + 1.01f * reach) * out));
   }
 }
 

@@ -257,9 +257,9 @@ struct ValidationScore {
 /** \brief How gaps of the sampling were filled: around the isosurfaces, by samples that
  * ordinary kriging predicts from the means of measured ones in cells as long as the
  * spacing of predicted ones. They lie in the convex hull of the measured ones, or half
- * a gap outside of it, which is two spacings. Lengths are in units of the stretched
- * space; the variogram is that of the means, of mean roots of differences (Cressie and
- * Hawkins 1980), or of the samples where there was no gap.
+ * a gap outside of it, which is at most two spacings. Lengths are in units of the
+ * stretched space; the variogram is that of the means, of mean roots of differences
+ * (Cressie and Hawkins 1980), or of the samples where there was no gap.
  *
  * Isopoints that rest on them have IsoSupport::Predicted; their `error` is the standard
  * deviation of the kriging over the slope of the kriged field, and `confidence` the
