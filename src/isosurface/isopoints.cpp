@@ -3,6 +3,7 @@
 
 #include "common/parallel.h"
 #include "isosurface/examined_isopoints.h"
+#include "isosurface/one_sided.h"
 #include "isosurface/piece_isopoints.h"
 #include "isosurface/smooth_roots.h"
 #include "isosurface/spike_test.h"
@@ -266,6 +267,8 @@ appendIsopoints(const IsopointInput& input,
     examineSome(input, isovalue, point_edges, points, report);
   else
     smoothIsopoints(input, isovalue, point_edges, points, report);
+  if (input.interpolation == Interpolation::Auto)
+    removeContradicted(input, isovalue, points, point_edges, report);
   for (IsoEdge& edge : point_edges) {
     edge.first = sources[edge.first];
     edge.second = sources[edge.second];

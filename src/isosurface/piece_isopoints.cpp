@@ -5,6 +5,7 @@
 #include "distributed/byte_stream.h"
 #include "isosurface/examined_isopoints.h"
 #include "isosurface/isopoints.h"
+#include "isosurface/one_sided.h"
 #include "isosurface/smooth_roots.h"
 
 #include <algorithm>
@@ -235,15 +236,18 @@ PieceIsopoints::fit(const IsopointInput& input,
                              points,
                              step,
                              &searched);
+  OneSidedTest test(input, static_cast<float>(settings_.isovalues[isovalue]));
   for (std::size_t i = 0; i < indices.size(); ++i) {
     GlobalIsopoint& isopoint = found_[isovalue][indices[i]];
+    float radius = fits[i].radius;
+    isopoint.is_contradicted = settings_.interpolation == Interpolation::Auto &&
+                               test.contradicts(points[i], edges[i], radius);
     if (settings_.interpolation == Interpolation::Linear)
       isopoint.support = points[i].support;
     else
       setResult(isopoint, points[i]);
     isopoint.outcome = static_cast<std::uint8_t>(fits[i].outcome);
-    const Ball nearest{stretched(isopoint.linear, toPosition(settings_.scale)),
-                       fits[i].radius};
+    const Ball nearest{stretched(isopoint.linear, toPosition(settings_.scale)), radius};
     searched[i].insert(searched[i].begin(), nearest);
     for (Ball& ball : searched[i])
       ball.radius *= slack;
@@ -333,6 +337,12 @@ mergeIsopoints(std::vector<GlobalIsopoint>& isopoints,
   isopoints.resize(kept);
   if (smooth)
     countRoots(outcomes, supports, report);
+  const auto end = std::remove_if(isopoints.begin(),
+                                  isopoints.end(),
+                                  [](const auto& one) { return one.is_contradicted; });
+  if (end != isopoints.end())
+    report.count("contradicted", static_cast<std::uint64_t>(isopoints.end() - end));
+  isopoints.erase(end, isopoints.end());
 }
 
 /** Count the support of those linear isopoints of one isovalue that are examined, of

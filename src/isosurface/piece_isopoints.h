@@ -42,6 +42,7 @@ struct GlobalIsopoint {
   Position position, normal;
   float mean_curvature, error, edge_length;
   std::uint8_t support, outcome;
+  bool is_contradicted; ///< see OneSidedTest
 };
 
 /** \brief The order of isopoints: that of their edges. */

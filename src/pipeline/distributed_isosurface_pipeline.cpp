@@ -89,8 +89,12 @@ warnTogether(const IsosurfacePipelineParameters& parameters,
              Communicator& communicator,
              Report& report)
 {
-  constexpr const char* names[] = {
-      "crossing_samples", "spikes", "removed_by_error", "removed_bridged", "isopoints"};
+  constexpr const char* names[] = {"crossing_samples",
+                                   "spikes",
+                                   "contradicted",
+                                   "removed_by_error",
+                                   "removed_bridged",
+                                   "isopoints"};
   std::vector<std::uint64_t> counts;
   for (const char* name : names)
     counts.push_back(report.getCount(name));
@@ -124,9 +128,12 @@ DistributedIsosurfacePipeline::run()
   const CloudView view = viewOf(part.getPoints().cloud);
   const ScalarField field(view.fields, isosurface.field);
   const ValueFrame frame = findValueFrame(view, field, communicator_, threads_);
+  IsosurfaceParameters extraction = withErrors(parameters);
+  if (parameters_.isosurface.interpolation == Interpolation::Auto)
+    extraction.interpolation = Interpolation::Auto; // without contradicted ones
   auto [isopoints, sampling] =
       extractFromRanks(part.readSamples(field, frame, threads_, report_),
-                       withErrors(parameters),
+                       extraction,
                        frame,
                        communicator_,
                        threads_,

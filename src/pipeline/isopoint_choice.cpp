@@ -209,8 +209,9 @@ IsosurfaceParameters
 withErrors(const IsosurfacePipelineParameters& parameters)
 {
   IsosurfaceParameters extraction = parameters.isosurface;
-  if (parameters.max_error || parameters.automatic_max_error ||
-      parameters.drop_bridged || parameters.fill_gaps)
+  const bool needs_fits = parameters.max_error || parameters.automatic_max_error ||
+                          parameters.drop_bridged || parameters.fill_gaps;
+  if (needs_fits && extraction.interpolation == Interpolation::Linear)
     extraction.interpolation = Interpolation::Fit;
   return extraction;
 }

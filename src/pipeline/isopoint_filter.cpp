@@ -37,6 +37,23 @@ warnOfSpikes(const IsosurfacePipelineParameters& parameters, Report& report)
   report.warnings.push_back(text.str());
 }
 
+/** Isopoints that the extraction removed, see OneSidedTest.
+ * \param isopoints that are left */
+void
+warnOfContradicted(std::uint64_t isopoints, Report& report)
+{
+  const std::uint64_t removed = report.getCount("contradicted");
+  if (removed == 0)
+    return;
+  const std::uint64_t all = isopoints + removed + report.getCount("removed_by_error") +
+                            report.getCount("removed_bridged");
+  report.warnings.push_back("Samples contradict " + std::to_string(removed) + " of " +
+                            std::to_string(all) +
+                            " isopoints, which were removed: the 8 nearest samples are "
+                            "all on one side of the "
+                            "isovalue. Try: -interpolation fit keeps them.");
+}
+
 /** Part of the isopoints: where fewer are left, a surface has become a few specks. */
 constexpr double little = 0.1;
 
@@ -127,6 +144,7 @@ warnOfLosses(const IsosurfacePipelineParameters& parameters,
              Report& report)
 {
   warnOfSpikes(parameters, report);
+  warnOfContradicted(isopoints, report);
   warnOfLittleLeft(isopoints, report);
 }
 

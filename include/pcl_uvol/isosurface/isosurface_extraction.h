@@ -45,8 +45,9 @@ enum class Interpolation {
   Linear, ///< thesis 2.4: along the edge, normal along the edge
   Fit,    ///< the zero level of a local cubic or quadratic fit: the default of
           ///< IsosurfaceExtraction
-  Auto ///< Fit or Linear, chosen for each isopoint: the default of IsosurfacePipeline,
-       ///< of the tools and of Python; IsosurfaceExtraction takes Fit instead
+  Auto ///< as Fit, without isopoints that the nearest samples contradict; the default
+       ///< of IsosurfacePipeline, of the tools and of Python, which also choose between
+       ///< Fit and Linear for each isopoint
 };
 
 /** \return The words for its values in JSON and options. */
@@ -395,7 +396,9 @@ public:
    * them), crossing_samples, edges, coincident, isopoints; with Interpolation::Fit
    * cubic_roots, quadratic_roots, and linear_singular, linear_step, linear_far for
    * isopoints whose linear root stayed because the fit is singular or fails, the values
-   * step, or the fit leaves the edge's surroundings; bridged and rim by support. */
+   * step, or the fit leaves the edge's surroundings; bridged and rim by support. With
+   * Interpolation::Auto contradicted: isopoints that were removed, if there were any.
+   */
   void
   extract(pcl::PointCloud<PointIso>& isopoints);
 
