@@ -75,6 +75,26 @@ struct Errors {
   }
 };
 
+/** Warn where no field has a value at any held-out point: errors are not numbers then.
+ */
+void
+warnOfNothingCovered(const std::vector<FieldScore>& scores, Report& report)
+{
+  std::size_t tested = 0;
+  for (const FieldScore& score : scores) {
+    if (score.covered > 0)
+      return;
+    tested = std::max(tested, score.tested);
+  }
+  if (tested == 0)
+    return;
+  report.warnings.push_back(
+      "None of the " + std::to_string(tested) +
+      " held-out samples has a value: each fold is outside of the samples that remain. "
+      "The test measures no error. Try: -extrapolate, more folds, or -validate-by "
+      "blocks.");
+}
+
 } // namespace
 
 Folds::Folds(std::size_t folds, std::vector<std::uint32_t> fold_of)
@@ -183,6 +203,7 @@ crossValidate(const CloudView& cloud,
   std::vector<FieldScore> scores;
   for (std::size_t f = 0; f < names.size(); ++f)
     scores.push_back(errors[f].score(names[f]));
+  warnOfNothingCovered(scores, report);
   return scores;
 }
 

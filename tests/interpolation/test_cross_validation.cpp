@@ -6,8 +6,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string>
+#include <vector>
 
 namespace {
 
@@ -89,6 +92,40 @@ TEST(Folds, PointsOfOneValueStayTogether)
     EXPECT_NEAR(static_cast<double>(size), 200.0, 60.0);
   EXPECT_THROW(Folds::byField(view, "f0", 21), InvalidArgument);
   EXPECT_THROW(Folds::byField(view, "f7", 2), InvalidArgument);
+}
+
+/** Each well at a corner of a square is outside of the other three. */
+TEST(CrossValidation, WarnsWhereNoHeldOutSampleHasAValue)
+{
+  Places places;
+  for (int well = 0; well < 4; ++well)
+    for (int i = 0; i < 40; ++i)
+      places.push_back({static_cast<double>(well % 2),
+                        static_cast<double>(well / 2),
+                        0.02 * static_cast<double>(i)});
+  const auto cloud = sampleFunctions(
+      places, {franke, [](const Vector3d& x) { return x[0] + 2.0 * x[1]; }});
+  const CloudView view = viewOf(cloud);
+  InterpolationParameters parameters;
+  parameters.fields = {"f0"};
+  parameters.model = InterpolationModel::Kriging;
+  const auto test = [&](const Folds& folds) {
+    Report report;
+    const auto scores =
+        crossValidate(view, allOf(cloud), parameters, folds, 0, 0, report);
+    EXPECT_EQ(160u, scores[0].tested);
+    const bool is_told = std::any_of(
+        report.warnings.begin(), report.warnings.end(), [](const std::string& warning) {
+          return warning.find("None of the 160 held-out samples has a value") == 0;
+        });
+    EXPECT_EQ(scores[0].covered == 0, is_told);
+    EXPECT_EQ(scores[0].covered == 0, std::isnan(scores[0].rms));
+    return scores[0].covered;
+  };
+  EXPECT_EQ(0u, test(Folds::byField(view, "f1", 4)));
+  EXPECT_GT(test(Folds::byRandom(160, 4)), 80u);
+  parameters.extrapolate = true;
+  EXPECT_EQ(160u, test(Folds::byField(view, "f1", 4)));
 }
 
 TEST(CrossValidation, TellsGoodModelsFromBadOnes)

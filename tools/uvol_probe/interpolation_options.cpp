@@ -247,7 +247,10 @@ InterpolationOptions::validate(const pcl_uvol::Dataset& samples,
   for (const pcl_uvol::FieldScore& score : scores) {
     FactText text;
     text.precision(4);
-    text << "RMS " << score.rms << ", bias " << score.bias;
+    if (score.covered == 0)
+      text << "no error is measured";
+    else
+      text << "RMS " << score.rms << ", bias " << score.bias;
     if (!std::isnan(score.share))
       text << ", " << std::round(1000.0 * score.share) / 10.0
            << " % within their standard error";
