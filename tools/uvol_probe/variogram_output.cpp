@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 #include <sstream>
 
 namespace uvol_tools {
@@ -79,12 +80,16 @@ makeProfile(const FittedVariogram& variogram,
 }
 
 std::string
-describe(const Variogram& model)
+describe(const FittedVariogram& variogram)
 {
+  const Variogram& model = variogram.model;
+  const std::vector<double>& pairs = variogram.empirical.all.pairs;
   FactText text;
   text.precision(4);
   text << toWord(model.kind) << ", nugget " << model.nugget << ", partial sill "
-       << model.sill << ", range " << model.range;
+       << model.sill << ", range " << model.range << ", from "
+       << std::llround(std::accumulate(pairs.begin(), pairs.end(), 0.0))
+       << " pairs of samples";
   return text.str();
 }
 
@@ -94,11 +99,13 @@ void
 VariogramOutput::declare(Options& options)
 {
   options
-      .output("variogram-csv",
-              "out.csv",
-              table_,
-              "with kriging: write the variogram of the first field, of all pairs of "
-              "samples and of those along an axis, and its model")
+      .output(
+          "variogram-csv",
+          "out.csv",
+          table_,
+          "with kriging: write the variogram of the first field and its model, from "
+          "all pairs of 600 samples drawn (or of all, if fewer) and those of each with "
+          "its 32 nearest, in all directions and along each axis")
       .rare();
   options
       .output("variogram-png",
@@ -142,7 +149,7 @@ VariogramOutput::write(const pcl_uvol::detail::FieldInterpolator& interpolator,
       continue;
     }
     facts.push_back(
-        Fact("variogram of " + names[field], describe(model)).withoutJson());
+        Fact("variogram of " + names[field], describe(*variogram)).withoutJson());
     of_fields.emplace_back(names[field],
                            Facts{{"kind", toWord(model.kind)},
                                  {"nugget", model.nugget},
