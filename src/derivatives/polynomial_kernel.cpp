@@ -145,6 +145,7 @@ private:
     for (int i = 0; i < cubic_terms; ++i)
       store(coefficient_[i], fit.coefficient[i] + first_);
     store(squareRoot(variance), fit.error + first_);
+    store(equations_.least_pivot, fit.pivot + first_);
     for (std::size_t lane = 0; lane < register_lanes; ++lane)
       fit.degree[first_ + lane] = static_cast<int>(degree_[lane]);
   }

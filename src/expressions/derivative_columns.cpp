@@ -5,6 +5,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <limits>
@@ -49,6 +50,14 @@ computeLambda2(const Eigen::Matrix3d& jacobian)
   const Eigen::Matrix3d sum = strain * strain + spin * spin;
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(sum, Eigen::EigenvaluesOnly)
       .eigenvalues()[1];
+}
+
+bool
+areKnown(const detail::PointDerivatives* fields, std::size_t count)
+{
+  return std::all_of(fields, fields + count, [](const detail::PointDerivatives& field) {
+    return field.gradient.allFinite();
+  });
 }
 
 /** \param[out] result as many numbers as the derivative has */
@@ -102,7 +111,7 @@ deriveColumns(Derivative derivative,
       derivative == Derivative::Gradient || derivative == Derivative::Curl;
   const std::size_t count = points.with_images.count;
   Columns columns(is_vector ? 3 : 1, std::vector<double>(count, none));
-  std::atomic<std::uint64_t> missing{0};
+  std::atomic<std::uint64_t> missing{0}, unknown{0};
   Report own; // its counts are those of the samples, which others count as well
   own.progress = report.progress;
   detail::computeDerivatives(
@@ -110,6 +119,10 @@ deriveColumns(Derivative derivative,
       fields,
       threads,
       [&](std::size_t point, const detail::PointDerivatives* derivatives) {
+        if (!areKnown(derivatives, fields.size())) {
+          unknown += point < points.own.count;
+          return;
+        }
         std::array<double, 3> result{};
         compute(derivative, derivatives, result);
         for (std::size_t i = 0; i < columns.size(); ++i)
@@ -123,6 +136,12 @@ deriveColumns(Derivative derivative,
     for (std::size_t i = 0; i < points.image_of.size(); ++i)
       column[points.own.count + i] = column[points.image_of[i]];
   undefined += missing;
+  if (unknown > 0)
+    report.warnings.push_back(
+        "At " + std::to_string(unknown) + " of " + std::to_string(points.own.count) +
+        " points the neighbours do not determine the derivatives, because the standard "
+        "error is larger than the differences between values. These points have no "
+        "value.");
   const auto reduced = static_cast<double>(own.getCount("reduced_fits"));
   if (reduced > most_reduced * static_cast<double>(count))
     report.warnings.push_back(

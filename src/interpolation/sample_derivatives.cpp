@@ -3,7 +3,7 @@
 
 #include "common/parallel.h"
 #include "common/value_frame.h"
-#include "interpolation/bucket_fitter.h"
+#include "interpolation/derivative_fitter.h"
 #include "neighbors/sample_values.h"
 #include <pcl_uvol/common/exceptions.h>
 
@@ -80,16 +80,12 @@ gatherFields(SampleSet::ConstPtr samples,
   return sampled;
 }
 
-/** Derivatives of a polynomial at its centre, see ReducedFit for the order of terms.
- * \param per_length its unit by that of the cloud */
+/** From the unit and frame of a sample set to those of the cloud and the field.
+ * \param per_length the unit of the samples by that of the cloud */
 PointDerivatives
-derive(const double* c, double per_length, double factor)
+toInput(PointDerivatives derivatives, double per_length, double factor)
 {
-  PointDerivatives derivatives;
-  derivatives.gradient = Eigen::Vector3d(c[1], c[2], c[3]) * per_length / factor;
-  derivatives.hessian << 2.0 * c[4], c[5], c[6], //
-      c[5], 2.0 * c[7], c[8],                    //
-      c[6], c[8], 2.0 * c[9];
+  derivatives.gradient *= per_length / factor;
   derivatives.hessian *= per_length * per_length / factor;
   return derivatives;
 }
@@ -141,23 +137,19 @@ computeDerivatives(const CloudView& cloud,
     throw InvalidArgument("Derivatives need samples at four places or more, and there "
                           "are " +
                           std::to_string(samples.size()) + ".");
-  std::atomic<std::uint64_t> reduced{0};
+  std::atomic<std::uint64_t> reduced{0}, unknown{0};
+  const auto per_length = static_cast<double>(samples.getUnit().factor);
   StepTimer step(report, "derivatives", samples.size());
   parallelBlocks(samples.size(), block_samples, threads, [&](auto begin, auto end) {
-    const BucketFits fits = BucketFitter(sampled, true)
-                                .fit(static_cast<std::uint32_t>(begin),
-                                     static_cast<std::uint32_t>(end - begin));
-    reduced += static_cast<std::uint64_t>(
-        std::count(fits.is_reduced.begin(), fits.is_reduced.end(), true));
+    const BlockDerivatives found = DerivativeFitter(sampled).fit(
+        static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end - begin));
+    reduced += found.reduced;
+    unknown += found.unknown;
     std::vector<PointDerivatives> derivatives(sampled.fields);
     for (std::size_t i = 0; i < end - begin; ++i) {
-      const double per_length =
-          static_cast<double>(samples.getUnit().factor) / fits.radius[i];
       for (std::size_t f = 0; f < sampled.fields; ++f)
-        derivatives[f] =
-            derive(&fits.coefficients[(i * sampled.fields + f) * polynomial_terms],
-                   per_length,
-                   frames[f].factor);
+        derivatives[f] = toInput(
+            found.derivatives[i * sampled.fields + f], per_length, frames[f].factor);
       forPointsOf(samples, begin + i, [&](std::uint32_t point) {
         take(point, derivatives.data());
       });
@@ -165,6 +157,7 @@ computeDerivatives(const CloudView& cloud,
     step.advance(end - begin);
   });
   report.count("reduced_fits", reduced);
+  report.count("unknown_derivatives", unknown);
 }
 
 } // namespace pcl_uvol::detail

@@ -261,6 +261,52 @@ TEST(DerivativesOfFields, PlanesAndLayers)
   EXPECT_NE(report.warnings[0].find("few planes"), std::string::npos);
 }
 
+namespace {
+
+/** Nodes of layers at a curved wall: the first is 1e-3 thick, each next one 1.25 times
+ * as thick, and nodes along the wall are 0.1 apart. */
+Places
+layersAtWall()
+{
+  Places nodes;
+  for (int i = 0; i < 20; ++i)
+    for (int j = 0; j < 20; ++j)
+      for (int k = 0; k < 24; ++k) {
+        const double angle = 0.1 * i, radius = 1.0 + 4e-3 * (std::pow(1.25, k) - 1.0);
+        nodes.push_back({radius * std::cos(angle), radius * std::sin(angle), 0.1 * j});
+      }
+  return nodes;
+}
+
+} // namespace
+
+TEST(DerivativesOfFields, LayersAtAWallHaveTheirDerivatives)
+{
+  const Places nodes = layersAtWall();
+  const Function f = [](const Vector3d& x) {
+    return 50.0 * (std::hypot(x[0], x[1]) - 1.0) + std::sin(x[2]) + x[0];
+  };
+  const auto slope = [](const Vector3d& x) {
+    const double radius = std::hypot(x[0], x[1]);
+    return Vector3d(50.0 * x[0] / radius + 1.0, 50.0 * x[1] / radius, std::cos(x[2]));
+  };
+  const Dataset dataset = makeDataset(nodes, {f});
+  std::array<std::vector<double>, 3> found;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    found[axis] = derive(dataset, "grad(f0)[" + std::to_string(axis) + "]");
+  std::size_t unknown = 0, wrong = 0, wild = 0;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const Vector3d gradient(found[0][i], found[1][i], found[2][i]);
+    const Vector3d truth = slope(vectorOf(nodes[i]));
+    unknown += !gradient.allFinite();
+    wrong += (gradient - truth).norm() > 0.1 * truth.norm();
+    wild += gradient.norm() > 10.0 * truth.norm();
+  }
+  EXPECT_EQ(0u, wild);
+  EXPECT_LT(unknown, nodes.size() / 20);
+  EXPECT_LT(wrong, nodes.size() / 5);
+}
+
 TEST(DerivativesOfFields, MissingValuesAndDuplicates)
 {
   Places twice = places;
@@ -346,8 +392,10 @@ TEST(DerivativesOfFields, CoordinatesInBoxesAreThoseOfTheSamples)
     EXPECT_NEAR(-1.0, slope, 1e-5);
   const auto sums =
       derive(inside, "grad(x*f0)[0]-x*grad(f0)[0]-f0", 0, {{2.0, 2.0, 2.0}});
+  // Six samples to a wave: cubics do not follow all of them, and quadratics are off by
+  // up to a third of the slope.
   for (const double none : sums)
-    EXPECT_NEAR(0.0, none, 1.5);
+    EXPECT_NEAR(0.0, none, 2.1);
 }
 
 TEST(DerivativesOfFields, ImagesAreNotUndefinedOnceMore)
