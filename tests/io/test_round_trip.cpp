@@ -159,7 +159,7 @@ namespace {
 Dataset
 withIntegers(std::uint8_t datatype, const std::vector<std::uint64_t>& numbers)
 {
-  Dataset dataset = makeDataset({{"id", datatype}, {"a", Type::FLOAT32}},
+  Dataset dataset = makeDataset({{"id", datatype}, {"q", Type::FLOAT32}},
                                 static_cast<unsigned>(numbers.size()),
                                 2);
   const auto offset = findField(dataset.cloud.fields, "id")->offset;
@@ -185,7 +185,7 @@ TEST(RoundTrip, IntegersThatPlyLacksBecomeDoublesIfTheseAreExact)
       EXPECT_EQ(Type::FLOAT64, findField(loaded.cloud.fields, "id")->datatype);
       for (std::size_t i = 0; i < 4; ++i) {
         EXPECT_EQ(valueOf(dataset, "id", i), valueOf(loaded, "id", i)) << i;
-        EXPECT_EQ(valueOf(dataset, "a", i), valueOf(loaded, "a", i)) << i;
+        EXPECT_EQ(valueOf(dataset, "q", i), valueOf(loaded, "q", i)) << i;
         EXPECT_EQ(valueOf(dataset, "z", i), valueOf(loaded, "z", i)) << i;
       }
     }
@@ -199,7 +199,7 @@ TEST(RoundTrip, IntegersThatDoubleDoesNotHoldAreLeftOutOfPlyOnly)
                               withIntegers(Type::INT64, {1, 0 - beyond})}) {
     const Dataset loaded = roundTrip(dataset, {"a.ply", false});
     EXPECT_EQ(nullptr, findField(loaded.cloud.fields, "id"));
-    EXPECT_EQ(valueOf(dataset, "a", 1), valueOf(loaded, "a", 1));
+    EXPECT_EQ(valueOf(dataset, "q", 1), valueOf(loaded, "q", 1));
     const auto losses = describeLosses("a.ply", dataset);
     ASSERT_EQ(1u, losses.size());
     EXPECT_EQ("a.ply leaves out the field 'id': the format has no 64-bit integers, and "

@@ -72,7 +72,7 @@ TEST_F(FieldNames, LoseTheirQuotes)
   const auto result =
       runTool("isosurface in.csv out.csv -field '\"T, K\"' -iso 300.5 -json");
   EXPECT_EQ(0, result.exit_code) << result.err;
-  EXPECT_NE(std::string::npos, result.out.find("\"field\":\"T, K\"")) << result.out;
+  EXPECT_NE(std::string::npos, result.out.find("\"field\": \"T, K\"")) << result.out;
 }
 
 TEST_F(FieldNames, OfAttributesMayHaveCommas)

@@ -112,8 +112,7 @@ TEST_F(UvolInfo, ReportsTheSharesOfTheSampling)
   const auto mixed =
       runOn(header + latticeOf(8, 8, 8, 0.0) + latticeOf(400, 1, 1, 1000.0));
   expectTold(mixed, {"sampling: all around 5", " %, lines 4", " (all around)\n"});
-  for (const char* const text :
-       {"0.4,0.4,0.4,1\n", "0.4,0.4,0.4,1\n0.4,0.4,0.4,2\n"}) {
+  for (const char* const text : {"0.4,0.4,0.4,1\n", "0.4,0.4,0.4,1\n0.4,0.4,0.4,2\n"}) {
     const auto single = runOn(header + text);
     expectTold(single, {"sampling: one place, without a spacing\n"});
     EXPECT_EQ(std::string::npos, single.out.find("distance to the nearest"));
@@ -123,9 +122,9 @@ TEST_F(UvolInfo, ReportsTheSharesOfTheSampling)
 TEST_F(UvolInfo, CountsPointsWhosePositionIsTheLargestFloat)
 {
   for (const char* const place : {"3.4028235e38", "-3.4028235e+38", "1e300"}) {
-    const auto result = runOn("x,y,z,a\n0,0,0,1\n1,0,0,1\n0,1,0,1\n" +
-                              std::string(place) + ",0,0,1\n");
-    expectTold(result, {"upper corner: 1 1 0", "non finite: 1"});
+    const auto result =
+        runOn("x,y,z,a\n0,0,0,1\n1,0,0,1\n0,1,0,1\n" + std::string(place) + ",0,0,1\n");
+    expectTold(result, {"upper corner: 1 1 0", "non finite 1"});
     expectTold(result,
                {"1 point has a coordinate of 3.4e38 or more, which float does not "
                 "hold. It counts as a point without a position."});
