@@ -203,7 +203,7 @@ class Interpolator:
         >>> points = np.random.default_rng(1).random((5000, 3))
         >>> answers = uvol.Interpolator(points, {"rho": 2 * points[:, 0]}).evaluate([[0.5, 0.5, 0.5], [9, 9, 9]])
         >>> answers.values.round(4), answers.gradients[0].round(3) + 0.0, answers.support
-        (array([ 1., nan]), array([2., 0., 0.]), array([1, 4], dtype=uint8))
+        (array([ 1., nan]), array([2., 0., 0.]), array([1, 7], dtype=uint8))
         """
         if isinstance(queries, Points):
             queries = queries._on_map_of(self._placed)

@@ -28,9 +28,9 @@ struct alignas(64) PolynomialFit {
   double error[polynomial_lanes]; ///< standard error of the value at the centre
   double pivot[polynomial_lanes]; ///< least part of a term of the cubic that those
                                   ///< before it do not give at the samples
-  int degree[polynomial_lanes]; ///< 1 to 3; 0: the samples do not determine a linear
-                                ///< function, or leave no residual, and the rest is
-                                ///< undefined
+  int degree[polynomial_lanes];   ///< 1 to 3; 0: the samples do not determine a linear
+                                  ///< function, or leave no residual, and the rest is
+                                  ///< undefined
 };
 
 /** \brief Fit polynomials with the weight (1 - d^2)^2: of the cubic and the quadratic

@@ -2,6 +2,7 @@
 #include "filters/cell_locator.h"
 
 #include <vtkCellData.h>
+#include <vtkDataArray.h>
 #include <vtkGenericCell.h>
 #include <vtkIdList.h>
 #include <vtkIdTypeArray.h>
@@ -19,9 +20,11 @@ namespace pcl_uvol {
 
 namespace {
 
-/** Share of the longest side of the mesh: samples are rounded to float, to 1e-7 of the
- * extent at most (see setCoordinates), and places are asked for where samples are. */
-constexpr double rounding = 2.5e-7;
+/** Share of the longest side of the mesh: places are asked for where samples are, and
+ * these are rounded to float, to 1e-7 of the extent (see setCoordinates). VTK's search
+ * in cells of 1 : 50,000 is coarser: of 210 nodes of such a mesh 2.5e-7 misses five,
+ * 1e-5 three. */
+constexpr double rounding = 1e-5;
 
 /** Binary digits of the longest side. VTK takes hexahedra whose determinant is below
  * 1e-20 for flat: with such sides they may be 1e-29 of the box. */
@@ -33,6 +36,19 @@ constexpr int cells_per_bin = 1;
 
 /** Bytes of its bounds and of the bins that it is in (measured: 138 to 144). */
 constexpr double cell_bytes = 140.0;
+
+/** \return the interval of ascending coordinates that holds a number within their range
+ */
+int
+findInterval(vtkDataArray& coordinates, double number)
+{
+  int low = 0, high = static_cast<int>(coordinates.GetNumberOfTuples()) - 1;
+  while (high - low > 1) {
+    const int middle = (low + high) / 2;
+    (coordinates.GetTuple1(middle) <= number ? low : high) = middle;
+  }
+  return low;
+}
 
 } // namespace
 
@@ -192,11 +208,15 @@ CellLocator::findInside(const std::array<double, 3>* places,
     if (locator_)
       cell = finder.find(*mesh_, *locator_, tolerance_, place);
     else {
+      // VTK's own search misses the high faces of a lattice.
+      vtkDataArray* const axes[] = {lattice->GetXCoordinates(),
+                                    lattice->GetYCoordinates(),
+                                    lattice->GetZCoordinates()};
       int at[3], counts[3];
-      double part[3];
       lattice->GetDimensions(counts);
-      if (lattice->ComputeStructuredCoordinates(place.data(), at, part) != 0)
-        cell = vtkStructuredData::ComputeCellId(counts, at);
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        at[axis] = findInterval(*axes[axis], place[axis]);
+      cell = vtkStructuredData::ComputeCellId(counts, at);
     }
     inside[i] = cell >= 0 && areUsed(cell, used, finder) ? 1 : 0;
   }

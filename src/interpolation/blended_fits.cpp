@@ -28,20 +28,16 @@ constexpr double thin_weight = 0.1, wide_ball = 2.0;
  * on. */
 constexpr double farthest_offset = 1.3;
 
-/** Fits answer if their squared error is at most this share of the variogram without
- * its nugget, at the radius of their balls. That error is a standard error at the
- * samples: between lines and across jumps a fit can be ten times farther off. In 27
- * tests on 11 real data sets (positions in cells, held-out samples), shares of 0.03^2,
- * 0.05^2 and 0.1^2 gave root mean square errors of at most 1.3, 1.7 and 1.9 times those
- * of kriging, and answers by fits alone more than 100 times. To measure the ratio of
- * true errors to standard errors instead, held-out samples would need a second set of
- * fits, which is most of the time. */
-constexpr double sq_clear_part = 0.03 * 0.03;
-
-/** The same share of the nugget, which is noise, if it is larger: averaging is then all
- * that a model can do. The standard error of a quadratic fit to 40 samples is a third
- * of their noise, and neighbouring fits differ by as much. */
-constexpr double sq_noise_part = 0.5 * 0.5;
+/** Between lines and layers, and far from samples, fits answer if their squared error
+ * is at most this share of the variogram without its nugget, at the radius of their
+ * balls. That error is a standard error at the samples: between them a fit can be ten
+ * times farther off. In 27 tests on 11 real data sets (positions in cells, held-out
+ * samples), shares of 0.03^2, 0.05^2 and 0.1^2 gave root mean square errors of at most
+ * 1.3, 1.7 and 1.9 times those of kriging, and fits alone more than 100 times. To
+ * measure the ratio of true errors to standard errors instead, held-out samples would
+ * need a second set of fits, which is most of the time. Among samples that are evenly
+ * spread, fits answer unless their error is above the whole of that difference. */
+constexpr double sq_uneven_part = 0.03 * 0.03;
 
 const KernelTable<const BlendKernels*> kernel_table{
     &baseline::blend_kernels, &avx2::blend_kernels, &avx512::blend_kernels};
@@ -239,6 +235,7 @@ private:
     bool is_inner = true, is_reduced = false;
     sum_.clear();
     sq_reach_ = 0.0;
+    is_even_ = true;
     add(query, candidates_, 1.0, {0.0, 0.0, 0.0}, is_inner, is_reduced);
     const double weight = sum_.getWeight();
     const bool is_thin = weight < thin_weight;
@@ -254,6 +251,7 @@ private:
       support = FieldSupport::Reduced;
     if (support == FieldSupport::Outside && !estimates_.extrapolate)
       return;
+    is_even_ = is_even_ && !is_thin && !is_reduced;
     for (std::size_t f = 0; f < sampled_.fields; ++f)
       if (isUnsure(f))
         unsure_.push_back(i * sampled_.fields + f);
@@ -299,6 +297,7 @@ private:
       }
       sum_.add(part);
       sq_reach_ += part.weight * fits->sq_reach[place];
+      is_even_ = is_even_ && !metric;
       is_inner = is_inner && fits->is_inner[place];
       is_reduced = is_reduced || fits->is_reduced[place];
     }
@@ -375,10 +374,15 @@ private:
   {
     const Variogram& variogram = kriging_.findVariogram(field)->model;
     const double reach = std::sqrt(sq_reach_ / sum_.getWeight());
-    const double difference = variogram.value(reach) - variogram.nugget;
-    const double noise = variogram.nugget > difference ? variogram.nugget : 0.0;
+    const double difference = variogram.value(reach);
     const double error = sum_.computeError(field);
-    return error * error > sq_clear_part * difference + sq_noise_part * noise;
+    // Errors of fits to few samples are infinite, and a variogram of few is 0.
+    if (!std::isfinite(error) || !(difference > 0.0))
+      return false;
+    // Of nugget alone kriging knows no more than the mean.
+    const double known = difference - variogram.nugget;
+    return error * error >
+           (is_even_ || !(known > 0.0) ? difference : sq_uneven_part * known);
   }
 
   /** Replace the values of fits that are unsure by those of kriging. */
@@ -438,7 +442,8 @@ private:
   std::vector<std::uint32_t> found_; // by kernels
   std::vector<double> parts_;        ///< of the balls that are held
   std::optional<SupportFinder> support_;
-  double sq_reach_ = 0.0;           ///< weighted sum of the squared radii of the balls
+  double sq_reach_ = 0.0; ///< weighted sum of the squared radii of the balls
+  bool is_even_ = true;   ///< samples are spread evenly, and the query lies among them
   std::vector<std::size_t> unsure_; ///< ascending: [query][field]
 };
 

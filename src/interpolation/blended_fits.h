@@ -21,8 +21,8 @@ namespace pcl_uvol::detail {
  * balls fade in. Beyond these the nearest fit is continued along a straight line. The
  * standard error combines those of the fits and the spread of their values.
  *
- * Where that error is a larger part of what values differ by over the distance of the
- * fits than in fields that samples resolve, the answer is that of kriging. */
+ * Kriging answers instead where that error is too large: between lines and layers of
+ * samples a small part of what values differ by over a ball. */
 class BlendedFits : public FieldModel {
 public:
   /** \param frames,names of the fields, see KrigingModel */

@@ -47,7 +47,7 @@ constexpr double good_pivot = 0.02, worthless_pivot = 1e-3, little_stretching = 
 
 /** The standard error of a value over the largest difference of the values around: with
  * more, a cubic through 40 samples does not follow them. The smaller bound is for terms
- * that the samples hardly determine: with the larger one alone, the gradient of the
+ * that the samples hardly determine: with 0.005 as the only bound, the gradient of the
  * density of a combustor has the correlation 0.94 with the derivatives of its cells,
  * instead of 0.97. */
 constexpr double large_error = 0.01, small_error = 0.001;

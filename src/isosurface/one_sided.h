@@ -24,8 +24,9 @@ public:
   /** \param input must outlive the test */
   OneSidedTest(const IsopointInput& input, float isovalue);
 
-  /** \brief Whether samples contradict an isopoint: it is bridged, and the samples
-   * nearest to the linear root of its edge are all on one side.
+  /** \brief Whether samples contradict an isopoint: it is bridged, its error is not
+   * below half of its edge, and the samples nearest to the linear root of its edge are
+   * all on one side.
    * \param reach is raised to the distance of these samples from the root, in the
    * stretched space */
   bool

@@ -37,16 +37,20 @@ warnOfSpikes(const IsosurfacePipelineParameters& parameters, Report& report)
   report.warnings.push_back(text.str());
 }
 
+/** Part of the isopoints: by chance 8 samples are on one side at 2 * 0.5^8 of all
+ * places on a surface, so that no more than these need no warning. */
+constexpr double by_chance = 2.0 / 256.0;
+
 /** Isopoints that the extraction removed, see OneSidedTest.
  * \param isopoints that are left */
 void
 warnOfContradicted(std::uint64_t isopoints, Report& report)
 {
   const std::uint64_t removed = report.getCount("contradicted");
-  if (removed == 0)
-    return;
   const std::uint64_t all = isopoints + removed + report.getCount("removed_by_error") +
                             report.getCount("removed_bridged");
+  if (static_cast<double>(removed) <= by_chance * static_cast<double>(all))
+    return;
   report.warnings.push_back("Samples contradict " + std::to_string(removed) + " of " +
                             std::to_string(all) +
                             " isopoints, which were removed: the 8 nearest samples are "

@@ -14,7 +14,6 @@
 #include <cmath>
 #include <functional>
 #include <numeric>
-#include <set>
 #include <string>
 #include <vector>
 #if defined(__SSE__)
@@ -356,71 +355,6 @@ TEST(Decompositions, FindThePiecesThatBallsMeet)
                   balls.size() * expected.size());
       },
       passes);
-}
-
-/** A ball a hundred times as long in one direction as in the others, and turned. */
-Ball
-makeNeedle(const Position& center, float radius, double angle)
-{
-  Ball needle{center, radius};
-  const double c = std::cos(angle), s = std::sin(angle), along = 0.01;
-  needle.metric = {{{{along * c, along * s, 0.0}}, {{-s, c, 0.0}}, {{0.0, 0.0, 1.0}}}};
-  needle.extent = {
-      {std::hypot(c / along, s), std::hypot(s / along, c), 1.0}}; // of the inverse
-  return needle;
-}
-
-/** The place in a ball that a direction leads to, of length 1 at its border. */
-Position
-placeIn(const Ball& ball, const Position& direction)
-{
-  Position place = ball.center;
-  for (const auto& row : ball.metric) {
-    const double sq_length = row[0] * row[0] + row[1] * row[1] + row[2] * row[2];
-    const int i = static_cast<int>(&row - ball.metric.data());
-    for (int axis = 0; axis < 3; ++axis)
-      place[axis] += static_cast<float>(
-          ball.radius * direction[i] * row[static_cast<std::size_t>(axis)] / sq_length);
-  }
-  return place;
-}
-
-TEST(Decompositions, FindThePiecesThatNeedlesMeetAndFewOthers)
-{
-  const Positions positions = makePositions(5000, [](std::uint64_t i) {
-    return Position{{at(i, 0), at(i, 1), at(i, 2)}};
-  });
-  int passes = 0;
-  decompose(
-      positions,
-      9,
-      1,
-      [&](const Decomposition& decomposition) {
-        for (std::uint64_t i = 0; i < 20; ++i) {
-          const Ball needle = makeNeedle(
-              {{at(i, 3), at(i, 4), at(i, 5)}}, 0.005f, 6.3 * uniformAt(3, i, 0));
-          std::set<std::size_t> met, touched;
-          decomposition.findPieces({needle}, [&](std::size_t piece, const auto& balls) {
-            EXPECT_EQ(1u, balls.size());
-            met.insert(piece);
-          });
-          for (std::uint64_t j = 0; j < 20000; ++j) {
-            const Position way{{2.0f * at(j, 0) - 1.0f,
-                                2.0f * at(j, 1) - 1.0f,
-                                2.0f * at(j, 2) - 1.0f}};
-            if (std::hypot(way[0], way[1], way[2]) < 0.999f)
-              touched.insert(decomposition.findPiece(placeIn(needle, way)));
-          }
-          EXPECT_TRUE(
-              std::includes(met.begin(), met.end(), touched.begin(), touched.end()));
-          EXPECT_LE(met.size(), touched.size() + 4);
-          EXPECT_LE(met.size(), 40u); // the ball around it meets up to 270
-          for (const std::size_t piece : met)
-            EXPECT_FALSE(decomposition.getCell(piece).contains(needle));
-        }
-      },
-      passes);
-  EXPECT_TRUE(CellKey::unbounded().contains(makeNeedle({}, 1.0f, 0.3)));
 }
 
 TEST(Decompositions, RefuseWhatCannotBe)

@@ -41,7 +41,9 @@ measureRun(const MeshRun& run, bool curved = true)
       std::vector<std::int32_t>(run.mesh.is_on_cap.begin(), run.mesh.is_on_cap.end()));
   SurfaceMeasures measures;
   measures.setInputSurface(vertices, run.mesh.triangles);
-  measures.setParameters({curved, false});
+  pcl_uvol::SurfaceMeasuresParameters parameters;
+  parameters.curved = curved;
+  measures.setParameters(parameters);
   return measures.compute().isovalues.at(0);
 }
 

@@ -6,8 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
 #include <numeric>
 
 namespace {
@@ -117,68 +115,6 @@ TEST(LocalMetric, IsANumberWhereSamplesAreNearAndFar)
         EXPECT_TRUE(metrics.getMetric().allFinite()) << size << ' ' << close;
       }
     }
-}
-
-/** A dense cube in a sparse one, whose spacings in z are larger. */
-std::vector<Position>
-makeDenseInSparse()
-{
-  std::vector<Position> places;
-  for (std::uint64_t i = 0; i < 6000; ++i) {
-    const float side = i % 2 == 0 ? 1.0f : 0.1f;
-    const auto at = [&](std::uint64_t axis) {
-      return side * static_cast<float>(pcl_uvol::uniformAt(9, i, axis) - 0.5);
-    };
-    places.push_back({{at(0), at(1), 4.0f * at(2)}});
-  }
-  return places;
-}
-
-bool
-isIn(const pcl_uvol::Ball& ball, const Position& place)
-{
-  double sq_length = 0.0;
-  for (const auto& row : ball.metric) {
-    double image = 0.0;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      image += row[axis] * (static_cast<double>(place.x[axis]) - ball.center.x[axis]);
-    sq_length += image * image;
-  }
-  return std::sqrt(sq_length) <= 1.0001 * ball.radius;
-}
-
-/** Samples that were not looked at may be anything, or none at all. */
-TEST(LocalMetric, DependsOnNoSampleOutsideOfWhereItLooked)
-{
-  const auto all = makeSamples(makeDenseInSparse());
-  std::size_t with_metric = 0, fewer = 0;
-  for (std::uint32_t i = 0; i < all->size(); i += 59) {
-    LocalMetricFinder metrics(*all);
-    const bool found = metrics.find(i, 1.2);
-    ASSERT_FALSE(metrics.getSearched().empty());
-    std::vector<Position> seen;
-    std::uint32_t same = 0;
-    for (std::uint32_t j = 0; j < all->size(); ++j) {
-      const Position& place = all->getPositions()[j];
-      const auto& searched = metrics.getSearched();
-      if (std::any_of(searched.begin(), searched.end(), [&](const auto& ball) {
-            return isIn(ball, place);
-          }))
-        seen.push_back(place);
-    }
-    fewer += seen.size() < all->size() / 4;
-    const auto part = makeSamples(seen);
-    while (!(part->getPositions()[same][0] == all->getPositions()[i][0] &&
-             part->getPositions()[same][1] == all->getPositions()[i][1]))
-      ++same;
-    // The tree over a part is another one: metrics are sums in another order.
-    LocalMetricFinder of_part(*part);
-    EXPECT_EQ(found, of_part.find(same, 1.2));
-    EXPECT_TRUE(metrics.getMetric().isApprox(of_part.getMetric(), 1e-6));
-    with_metric += found;
-  }
-  EXPECT_GT(with_metric, 20u);
-  EXPECT_GT(fewer, 50u);
 }
 
 } // namespace

@@ -236,7 +236,8 @@ TEST(IsopointChoice, GoesBackToEdgesBetweenLines)
   EXPECT_GE(meanCosine(uvol_test::toIsopoints(chosen), truth),
             meanCosine(uvol_test::toIsopoints(fit), truth));
   EXPECT_EQ(LocalDimension::Line, chosen.sampling->most);
-  ASSERT_EQ(1u, chosen.report.warnings.size());
+  ASSERT_EQ(2u, chosen.report.warnings.size());
+  EXPECT_NE(std::string::npos, chosen.report.warnings[1].find("contradict"));
   EXPECT_NE(std::string::npos, chosen.report.warnings[0].find("-validate"));
 }
 

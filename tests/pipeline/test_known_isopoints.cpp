@@ -101,10 +101,11 @@ TEST(KnownIsopoints, AreCrossingsOfAJumpAtAnyIsovalue)
 TEST(KnownIsopoints, DoNotSlipPastSamples)
 {
   const auto samples = sampleTube();
+  std::size_t bridged = 0;
   for (const double isovalue : {1.25, 1.35, 1.45}) {
     SCOPED_TRACE(isovalue);
     const auto all = extract(samples, isovalue, false);
-    ASSERT_GT(count(IsoSupport::Bridged, all), 0u);
+    bridged += count(IsoSupport::Bridged, all);
     const auto known = uvol_test::toIsopoints(extract(samples, isovalue, true));
     EXPECT_EQ(all.surface.cloud.width - count(IsoSupport::Bridged, all), known.size());
     // Neighbours lie at -0.5 and at 1 or, behind the first layer, at 3.
@@ -113,6 +114,7 @@ TEST(KnownIsopoints, DoNotSlipPastSamples)
       EXPECT_LE(point.x, 3.0f);
     }
   }
+  EXPECT_GT(bridged, 0u);
 }
 
 /** Profiles at random places, of a value that jumps at a depth of its own. */

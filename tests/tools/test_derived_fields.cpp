@@ -102,7 +102,7 @@ TEST_F(DerivedFields, TheSameAsAColumnOfTheFile)
   expectSuccess("uvol_isosurface " + in_ + " " + other + " -field '" + name +
                 "' -iso 0.2");
   EXPECT_EQ(valuesOf(out_, "x"), valuesOf(other, "x"));
-  EXPECT_EQ(valuesOf(out_, "d"), valuesOf(other, name));
+  EXPECT_EQ(valuesOf(out_, "d"), valuesOf(other, "log10(the density)"));
 }
 
 TEST_F(DerivedFields, FromDiskTheSameBytes)
