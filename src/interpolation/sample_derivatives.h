@@ -34,12 +34,20 @@ using TakeDerivatives =
  * lie on few planes or lines, derivatives across them are 0. Where the standard error
  * of a gradient is larger than the differences between values, derivatives are NaN.
  * Points at one place count as one sample, with the median of their values, and get the
- * same derivatives. \param columns [field][point] values, none of which a point takes
- * part in that has no finite value of one of them \param take called once, from any
- * thread, for every point that takes part \param report gets the counts "non_finite",
+ * same derivatives.
+ *
+ * \param columns [field][point] values, none of which a point takes
+ * part in that has no finite value of one of them
+ *
+ * \param take called once, from any
+ * thread, for every point that takes part
+ *
+ * \param report gets the counts "non_finite",
  * "duplicates", "conflicting_duplicates", "reduced_fits", of samples that lie on few
  * planes or lines, and "unknown_derivatives", of samples with a field whose derivatives
- * are NaN \throws InvalidArgument for fewer than four distinct samples with values
+ * are NaN
+ *
+ * \throws InvalidArgument for fewer than four distinct samples with values
  *
  * Memory: about 50 bytes per sample, and 8 per sample and field. */
 PCL_UVOL_EXPORTS void

@@ -30,7 +30,9 @@ struct RootFit {
  * vector stay
  * \param searched gets, per point, where else than among the nearest samples was
  * looked: the result depends on no sample outside, and each of these balls on what is
- * in those before \return one per point */
+ * in those before
+ *
+ * \return one per point */
 std::vector<RootFit>
 fitRoots(const IsopointInput& input,
          float isovalue,

@@ -25,7 +25,9 @@ public:
   SampleHull(const SampleSet& samples, double reach);
 
   /** \brief Whether a place is near the hull: no place farther from it than the reach
-   * is near, and all places in it are. \param place in units of the samples */
+   * is near, and all places in it are.
+   *
+   * \param place in units of the samples */
   bool
   contains(const Position& place) const;
 
