@@ -157,9 +157,15 @@ DerivativeFitter::fitLanes(std::uint32_t begin,
     const bool is_close = followsValues(lane, small_error);
     const bool is_sane = is_close || followsValues(lane, large_error);
     const bool is_exact = followsValues(lane, rounding_error);
-    if (!is_exact && (!is_sane || !(pivot >= good_pivot)))
-      doubts_.push_back({sampleOf(lane), pivot, is_close});
-    if (is_sane)
+    const bool is_bounded =
+        is_sane || followsValues(lane, std::numeric_limits<double>::infinity());
+    const bool is_determined = pivot >= good_pivot;
+    const bool is_trusted =
+        is_determined ? is_sane : is_close && pivot >= worthless_pivot;
+    if (!is_exact && !is_trusted)
+      doubts_.push_back(
+          {sampleOf(lane), pivot, is_close || (is_bounded && is_determined)});
+    if (is_bounded)
       for (std::size_t f = 0; f < fields; ++f)
         found.derivatives[(first + lane) * fields + f] =
             derive(results_[f], lane, radius_[lane]);
@@ -253,7 +259,7 @@ DerivativeFitter::fitAnew(const Doubt& doubt,
                           BlockDerivatives& found)
 {
   const Spacings spacings = findSpacings(doubt);
-  if (spacings == Spacings::Even && doubt.is_close)
+  if (spacings == Spacings::Even && doubt.is_kept_if_even)
     return;
   const std::vector<Position>& positions = sampled_.samples->getPositions();
   const Position& center = positions[doubt.sample];

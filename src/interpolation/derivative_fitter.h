@@ -40,8 +40,9 @@ private:
   /** A sample whose fit a stretched sampling may have spoilt. */
   struct Doubt {
     std::uint32_t sample;
-    double pivot;  ///< of its fit
-    bool is_close; ///< it has a fit that is close to the values
+    double pivot; ///< of its fit
+    /** Its cubic is close to the values, or well determined and bounded by them. */
+    bool is_kept_if_even;
   };
 
   /** How samples lie around one of them. */

@@ -392,10 +392,8 @@ TEST(DerivativesOfFields, CoordinatesInBoxesAreThoseOfTheSamples)
     EXPECT_NEAR(-1.0, slope, 1e-5);
   const auto sums =
       derive(inside, "grad(x*f0)[0]-x*grad(f0)[0]-f0", 0, {{2.0, 2.0, 2.0}});
-  // Six samples to a wave: cubics do not follow all of them, and quadratics are off by
-  // up to a third of the slope.
   for (const double none : sums)
-    EXPECT_NEAR(0.0, none, 2.1);
+    EXPECT_NEAR(0.0, none, 1.5);
 }
 
 TEST(DerivativesOfFields, ImagesAreNotUndefinedOnceMore)
