@@ -34,11 +34,8 @@ constexpr double clear_pivot = 0.02;
 
 } // namespace
 
-BucketFitter::BucketFitter(const SampledFields& sampled,
-                           bool is_calm,
-                           const SampleMetrics* metrics)
+BucketFitter::BucketFitter(const SampledFields& sampled, const SampleMetrics& metrics)
     : sampled_(sampled)
-    , is_calm_(is_calm)
     , metrics_(metrics)
     , finder_(*sampled.samples, fitted_samples + 1)
     , stretched_finder_(*sampled.samples, fitted_samples + 1, true)
@@ -97,7 +94,7 @@ BucketFitter::fitLanes(std::uint32_t begin,
     const std::size_t place = first + lane;
     const std::uint32_t sample = begin + static_cast<std::uint32_t>(place);
     const bool is_determined = results_.front().degree[lane] > 0;
-    if (!is_determined || (is_calm_ && hasRunAway(lane))) {
+    if (!is_determined || hasRunAway(lane)) {
       fits.is_reduced[place] = true;
       fitReduced(sample, lane, place, is_determined, fits);
       continue;
@@ -132,7 +129,7 @@ BucketFitter::gather(std::uint32_t sample,
                      std::size_t place,
                      BucketFits& fits)
 {
-  fits.metric[place] = metrics_ ? metrics_->find(sample) : nullptr;
+  fits.metric[place] = metrics_.find(sample);
   findNeighbors(sample, fits.metric[place]);
   const double farthest =
       std::sqrt(*std::max_element(sq_dists_.begin(), sq_dists_.end()));
@@ -232,7 +229,7 @@ void
 BucketFitter::fitReduced(std::uint32_t sample,
                          std::size_t lane,
                          std::size_t place,
-                         bool is_calm,
+                         bool is_determined,
                          BucketFits& fits) const
 {
   constexpr auto most = static_cast<Eigen::Index>(most_neighbors);
@@ -253,7 +250,8 @@ BucketFitter::fitReduced(std::uint32_t sample,
   }
   offsets.conservativeResize(count, 3);
   values.conservativeResize(count, fields);
-  const ReducedFit fit(offsets, is_calm ? clear_pivot : ReducedFit::rounding, is_calm);
+  const ReducedFit fit(
+      offsets, is_determined ? clear_pivot : ReducedFit::rounding, is_determined);
   for (Eigen::Index f = 0; f < fields; ++f) {
     const std::size_t target = place * sampled_.fields + static_cast<std::size_t>(f);
     fits.errors[target] =

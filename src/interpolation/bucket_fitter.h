@@ -28,14 +28,12 @@ public:
    */
   static constexpr std::size_t blended_samples = 14;
 
-  /** \param is_calm fit anew where polynomials run away: steep along a direction in
-   * which samples lie on too few layers for their degree. Of the degrees whose terms
-   * the samples determine well the best is taken, a linear function at least. Values
-   * hardly depend on it, derivatives do.
-   * \param metrics that neighbours and fits are those of; null: of space */
-  explicit BucketFitter(const SampledFields& sampled,
-                        bool is_calm = false,
-                        const SampleMetrics* metrics = nullptr);
+  /** \param metrics that neighbours and fits are those of
+   *
+   * Polynomials that run away, steep along a direction in which samples lie on too few
+   * layers for their degree, are fitted anew: of the degrees whose terms the samples
+   * determine well the best is taken, a linear function at least. */
+  BucketFitter(const SampledFields& sampled, const SampleMetrics& metrics);
 
   BucketFits
   fit(std::uint32_t begin, std::uint32_t count);
@@ -59,7 +57,7 @@ private:
   fitReduced(std::uint32_t sample,
              std::size_t lane,
              std::size_t place,
-             bool is_calm,
+             bool is_determined,
              BucketFits& fits) const;
 
   bool
@@ -74,8 +72,7 @@ private:
 
   alignas(64) float directions_[3][64];
   const SampledFields& sampled_;
-  bool is_calm_;
-  const SampleMetrics* metrics_;
+  const SampleMetrics& metrics_;
   NearestFinder finder_;
   MetricFinder stretched_finder_;
   EmptyCone cone_;

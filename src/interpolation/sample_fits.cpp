@@ -74,7 +74,7 @@ const BucketFits&
 SampleFits::getFits(std::size_t bucket) const
 {
   std::call_once(once_[bucket], [&] {
-    BucketFitter fitter(sampled_, true, &metrics_);
+    BucketFitter fitter(sampled_, metrics_);
     fits_[bucket] = std::make_unique<const BucketFits>(fitter.fit(
         balls_.getBuckets()[bucket].begin, balls_.getBuckets()[bucket].count));
   });

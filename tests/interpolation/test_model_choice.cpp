@@ -65,7 +65,8 @@ TEST(ModelChoice, SamplesAlongLinesAreLeftOutInBlocks)
                                      Folds::byBlocks(viewOf(tracks), 10, 0),
                                      0,
                                      report);
-  EXPECT_NE(by_random.scores.front().error, by_blocks.scores.front().error);
+  // Random folds leave neighbours along the track.
+  EXPECT_LT(by_random.scores.front().error, 0.25 * by_blocks.scores.front().error);
   const ModelChoice choice = choose(tracks);
   EXPECT_NE(choice.scores.front().model, InterpolationModel::Fit);
   ASSERT_EQ(choice.scores.size(), by_blocks.scores.size());
