@@ -2,6 +2,7 @@
 #include "interpolation/derivative_fitter.h"
 
 #include "common/dispatch.h"
+#include "interpolation/sample_metrics.h"
 #include "interpolation/slope_fit.h"
 
 #include <Eigen/Eigenvalues>
@@ -58,15 +59,6 @@ constexpr double rounding_error = 1e-9;
 /** The standard error of a gradient over the largest difference of the values by the
  * radius of the support: with more the values do not determine it. */
 constexpr double largest_error = 1.0;
-
-Eigen::Vector3d
-between(const Position& from, const Position& to)
-{
-  Eigen::Vector3d offset;
-  for (int axis = 0; axis < 3; ++axis)
-    offset[axis] = static_cast<double>(to[axis]) - from[axis];
-  return offset;
-}
 
 /** Derivatives of a polynomial at its centre, see PolynomialFit for the order of terms.
  */
@@ -192,9 +184,9 @@ DerivativeFitter::gather(std::uint32_t sample, std::size_t lane)
   const auto near = finder_.find(positions[sample], length_);
   double sq_farthest = 0.0;
   for (std::size_t j = 0; j < near.size; ++j)
-    sq_farthest =
-        std::max(sq_farthest,
-                 between(positions[sample], positions[near.samples[j]]).squaredNorm());
+    sq_farthest = std::max(
+        sq_farthest,
+        offsetIn(nullptr, positions[sample], positions[near.samples[j]]).squaredNorm());
   const bool are_all = near.size <= fitted_samples;
   const double radius = sq_farthest > 0.0
                             ? (are_all ? radius_of_few : 1.0) * std::sqrt(sq_farthest)
@@ -203,7 +195,7 @@ DerivativeFitter::gather(std::uint32_t sample, std::size_t lane)
   radius_[lane] = radius;
   for (std::size_t j = 0; j < near.size; ++j) {
     const Eigen::Vector3d u =
-        between(positions[sample], positions[near.samples[j]]) / radius;
+        offsetIn(nullptr, positions[sample], positions[near.samples[j]]) / radius;
     samples_[j].x[lane] = u[0];
     samples_[j].y[lane] = u[1];
     samples_[j].z[lane] = u[2];
@@ -271,7 +263,8 @@ DerivativeFitter::fitAnew(const Doubt& doubt,
   Eigen::MatrixX3d offsets(rows, 3);
   for (Eigen::Index j = 0; j < rows; ++j)
     offsets.row(j) =
-        (metric * between(center, positions[near[static_cast<std::size_t>(j)]]))
+        (metric *
+         offsetIn(nullptr, center, positions[near[static_cast<std::size_t>(j)]]))
             .transpose();
   const double radius = (near.size() <= samples_in_metric ? radius_of_few : 1.0) *
                         offsets.rowwise().norm().maxCoeff();
