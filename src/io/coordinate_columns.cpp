@@ -371,12 +371,22 @@ isDownwards(const std::string& name)
   return word == "depth" || word == "pres" || word == "pressure";
 }
 
-bool
-mayBeCoordinate(const std::string& name)
+std::optional<std::string>
+findPossibleCoordinate(const std::vector<std::string>& names)
 {
-  const Parts parts = splitName(name);
-  return parts.before.empty() &&
-         (parts.is_quantity ? isLetter(parts.word) : !listAxes(name, parts).empty());
+  std::array<bool, 2> has_letter{};
+  for (const std::string& name : names) {
+    const Parts parts = splitName(name);
+    if (!parts.before.empty())
+      continue;
+    if (parts.word == "e" || parts.word == "n")
+      has_letter[parts.word == "e" ? 0 : 1] = true;
+    else if (parts.is_quantity ? isLetter(parts.word) : !listAxes(name, parts).empty())
+      return name;
+    if (has_letter[0] && has_letter[1])
+      return name;
+  }
+  return std::nullopt;
 }
 
 bool

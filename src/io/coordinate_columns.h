@@ -47,10 +47,12 @@ isDownwards(const std::string& name);
 std::optional<CoordinateColumns>
 recognizeCoordinates(const std::vector<std::string>& names, bool on_map = false);
 
-/** \brief Whether a name has an axis of any of these systems, or is a component of
- * another quantity, as x_vel: then coordinates are not guessed. */
-bool
-mayBeCoordinate(const std::string& name);
+/** \brief The first name that has an axis of any of these systems, or is a component of
+ * another quantity, as x_vel: then coordinates are not guessed. The letters e and n
+ * count only together, as columns of other quantities are called so as well. \return
+ * nothing if there is none */
+std::optional<std::string>
+findPossibleCoordinate(const std::vector<std::string>& names);
 
 /** \brief Whether a name tells a time, as time_s, timestamp and "date (UTC)" do: such a
  * column is no coordinate unless it is chosen. */

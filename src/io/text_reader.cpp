@@ -248,8 +248,7 @@ TextTable::findCoordinates()
                     "it has " + std::to_string(columns_.size()) +
                         " columns, and coordinates need three, separated by "
                         "comma, semicolon, tab or blanks");
-  if (const auto named = std::find_if(names.begin(), names.end(), mayBeCoordinate);
-      named != names.end())
+  if (const auto named = findPossibleCoordinate(names))
     throwUnreadable(path_,
                     "its header names only some of x, y and z, as by " +
                         quoteText(*named) +

@@ -161,6 +161,20 @@ TEST(CoordinateColumns, OfUnknownUnitsBringANote)
   EXPECT_FALSE(load("x_vel,y_vel,z_vel,rho", options).has_coordinates);
 }
 
+/** Attributes that letters name are not coordinates: the letters e and n only together.
+ */
+TEST(CoordinateColumns, LettersOfMapsCountTogether)
+{
+  for (const char* const line : {"a,b,c,d,e,truth", "k,l,m,n"}) {
+    const Dataset dataset = load(line);
+    EXPECT_EQ(1.5, valueOf(dataset, "x", 0)) << line;
+    ASSERT_EQ(1u, dataset.notes.size()) << line;
+    EXPECT_NE(std::string::npos, dataset.notes[0].find("names no x, y, z")) << line;
+  }
+  const std::string error = messageOf<IOError>([&] { load("n,e,grade"); });
+  EXPECT_NE(std::string::npos, error.find("only some")) << error;
+}
+
 /** A column called "0" is not in the way of the first one. */
 TEST(CoordinateColumns, ThreeNumbersAreNumbers)
 {
