@@ -2,6 +2,7 @@
 #include "interpolation/memory_need.h"
 
 #include "interpolation/field_model.h"
+#include "interpolation/variogram.h"
 #include "neighbors/memory_need.h"
 
 #include <algorithm>
@@ -48,6 +49,14 @@ modelBytes(double samples, double fields, InterpolationModel model, QueryShape s
   }
 }
 
+/** Whether it kriges, if only where it has no better value. */
+bool
+usesVariogram(InterpolationModel model)
+{
+  return model == InterpolationModel::Kriging || model == InterpolationModel::Fit ||
+         model == InterpolationModel::Auto;
+}
+
 } // namespace
 
 MemoryNeed
@@ -64,6 +73,8 @@ interpolationNeed(double samples,
   forecast.run(sampleSetNeed(samples));
   forecast.hold(number_bytes * fields * samples); // in leaf order
   forecast.release(number_bytes * fields * samples);
+  if (usesVariogram(parameters.model))
+    forecast.run({detail::variogramBytes(samples), 0.0});
   forecast.hold(modelBytes(samples, fields, parameters.model, shape));
   // Queries as they came and among the samples, their order and how it is found.
   const double of_queries = 3.0 * number_bytes + sizeof(detail::Query) +

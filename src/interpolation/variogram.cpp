@@ -286,6 +286,13 @@ trendAt(const Vector3d& x, int degree)
   return terms;
 }
 
+double
+variogramBytes(double samples)
+{
+  const double centers = std::min(samples, static_cast<double>(most_centers));
+  return centers * (static_cast<double>(near_samples) + 0.5 * centers) * sizeof(Pair);
+}
+
 EmpiricalVariograms
 computeEmpiricalVariograms(const SampledFields& sampled,
                            std::size_t field,
@@ -301,6 +308,7 @@ computeEmpiricalVariograms(const SampledFields& sampled,
   const Residuals residuals(sampled, field, centers, trend);
 
   std::vector<Pair> pairs;
+  pairs.reserve(centers.size() * (near_samples + centers.size() / 2));
   const auto add = [&](std::size_t a, std::size_t b) {
     const Vector3d offset = metric * (positionOf(sampled, a) - positionOf(sampled, b));
     const double distance = offset.norm(), difference = residuals[a] - residuals[b];

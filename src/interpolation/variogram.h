@@ -63,6 +63,10 @@ enum class VariogramEstimator {
               ///< unbiased for normal differences only (Cressie and Hawkins 1980)
 };
 
+/** \brief Bytes of the pairs that computeEmpiricalVariograms() looks at, at most. */
+double
+variogramBytes(double samples);
+
 /** \brief Half squared differences of pairs of near samples, and of samples out of all
  * parts of the cloud, up to a third of its size.
  * \param metric from offsets of samples to those whose length and direction count

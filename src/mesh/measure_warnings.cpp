@@ -72,11 +72,12 @@ warnOfMissedSamples(const SurfaceFigures& figures, Report& report)
   }
 }
 
-/** Whether all pieces of a closed surface have no volume, nor an error of one. */
+/** Whether a closed surface has no volume and encloses no sample. */
 bool
 hasNoVolume(const PieceMeasures& all)
 {
-  return all.rims == 0 && all.volume.value == 0.0 && all.triangles > 0;
+  return all.rims == 0 && all.volume.value == 0.0 && all.triangles > 0 &&
+         all.samples <= 0;
 }
 
 } // namespace

@@ -402,23 +402,13 @@ FilledGaps::findSpacing(const pcl::PointCloud<PointIso>& roots,
       continue;
     ++in_gaps;
     is_in_gap[i] = 1;
-    const double length = stretchedLength(cloud, edges[i], parameters.scale);
-    if (length > crossing_edge * static_cast<double>(sampling_.along))
-      lengths.push_back(length);
+    lengths.push_back(stretchedLength(cloud, edges[i], parameters.scale));
   }
   has_gaps_ = areGaps(in_gaps, roots.size());
   summary_.unfilled = roots.empty() ? "there is no surface"
                       : has_gaps_ ? "the samples are too few to tell how wide they are"
                                   : "samples lie all around the surface";
-  double width = 0.0;
-  if (!has_gaps_)
-    lengths.clear();
-  else if (std::isfinite(sampling_.across))
-    width = static_cast<double>(sampling_.across);
-  if (width == 0.0 && !lengths.empty()) {
-    std::sort(lengths.begin(), lengths.end());
-    width = lengths[lengths.size() / 4];
-  }
+  const double width = has_gaps_ ? findGapWidth(sampling_, std::move(lengths)) : 0.0;
   summary_.spacing = width / samples_per_gap;
   reach_ = farthest_gaps * width;
   return is_in_gap;

@@ -33,13 +33,14 @@ namespace pcl_uvol::detail {
  * more gets a coarser one. */
 constexpr std::size_t most_gap_nodes = std::size_t{1} << 20;
 
-/** \brief About how many nodes there are at most: as many as the box of the samples
- * has, by their spacing, or as four times the area of its sides for every isovalue,
- * since smooth surfaces have a quarter of these.
+/** \brief About how many nodes there are, by the width of the gaps and by how often the
+ * values of nearest samples cross an isovalue. Takes an extraction with linear
+ * isopoints.
+ *
  * \param parameters as resolved
- * \return 0 where the field does not tell */
+ * \return 0 where the field or the samples do not tell */
 PCL_UVOL_EXPORTS double
-estimateGapNodes(const CloudView& cloud,
+estimateGapNodes(const std::shared_ptr<const Dataset>& samples,
                  const IsosurfacePipelineParameters& parameters,
                  unsigned threads);
 

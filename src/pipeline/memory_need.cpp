@@ -25,6 +25,9 @@ constexpr double mesh_bytes_per_isopoint = 1500.0;
  * surface, and in a tree. */
 constexpr double bytes_per_gap_node = 300.0;
 
+/** A sample while gaps are filled: in the trees of two kriged fields. */
+constexpr double gap_bytes_per_sample = 150.0;
+
 /** One surface after the other from a level set of its own; isopoints remain. */
 void
 addLevelSets(const LevelSetParameters& parameters,
@@ -74,7 +77,9 @@ addMemoryNeed(const IsosurfacePipelineParameters& parameters,
   if (parameters.isosurface.neighbors == NeighborSource::Exact)
     forecast.hold(ExactNeighbors::bytesPerSample() * points);
   if (parameters.fill_gaps) // a copy of the samples with more behind them
-    forecast.hold(point_step * points + (point_step + bytes_per_gap_node) * gap_nodes);
+    forecast.hold(detail::variogramBytes(points) +
+                  (point_step + gap_bytes_per_sample) * points +
+                  (point_step + bytes_per_gap_node) * gap_nodes);
   if (parameters.smooth)
     addLevelSets(parameters.level_set, surfaces, points, forecast);
   else
@@ -107,13 +112,14 @@ IsosurfacePipeline::estimateMemory() const
   const CloudView view = viewOf(samples_->cloud);
   const auto& cloud = samples_->cloud;
   MemoryForecast forecast(0.0);
-  addMemoryNeed(
-      parameters,
-      static_cast<double>(cloud.width) * static_cast<double>(cloud.height),
-      static_cast<double>(cloud.point_step),
-      estimateSurfaces(view, parameters.isosurface, threads_),
-      parameters.fill_gaps ? detail::estimateGapNodes(view, parameters, threads_) : 0.0,
-      forecast);
+  addMemoryNeed(parameters,
+                static_cast<double>(cloud.width) * static_cast<double>(cloud.height),
+                static_cast<double>(cloud.point_step),
+                estimateSurfaces(view, parameters.isosurface, threads_),
+                parameters.fill_gaps
+                    ? detail::estimateGapNodes(samples_, parameters, threads_)
+                    : 0.0,
+                forecast);
   return forecast.getPeak();
 }
 

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <numeric>
 
@@ -107,14 +108,14 @@ struct Accepted {
 
 /** Goes through the samples in their order; those that are not passed over get a splat.
  * Many are grown at once, and some of them for nothing. */
-std::vector<Accepted>
+std::deque<Accepted>
 coverSurface(const SplatGround& ground, unsigned threads, Report& report)
 {
   const std::size_t count = ground.points.samples->size();
   StepTimer step(report, "splats", count);
   const std::vector<std::uint32_t> order = randomOrder(count, threads);
   std::vector<std::uint8_t> passed_over(count, 0);
-  std::vector<Accepted> accepted;
+  std::deque<Accepted> accepted; // a vector grows to three times its size
   std::uint64_t widened = 0;
   std::vector<std::uint32_t> candidates, places;
   std::vector<GrownSplat> grown;
@@ -166,7 +167,7 @@ coverSurface(const SplatGround& ground, unsigned threads, Report& report)
 
 /** What splats are grown over goes with the end of it: most of the memory.
  * \param delta a length */
-std::vector<Accepted>
+std::deque<Accepted>
 growOn(const OrientedPoints& points,
        double delta,
        float largest_alone,

@@ -95,7 +95,7 @@ runInMemory(const Options& options,
       pcl_uvol::estimateSurfaces(view, resolved.isosurface, options.threads());
   const double gap_nodes =
       resolved.fill_gaps
-          ? pcl_uvol::detail::estimateGapNodes(view, resolved, options.threads())
+          ? pcl_uvol::detail::estimateGapNodes(samples, resolved, options.threads())
           : 0.0;
   memory.checkCloud(
       *samples, [&](double points, double step, pcl_uvol::MemoryForecast& forecast) {
