@@ -123,6 +123,7 @@ public:
         if (!is_agreed || (i < others[0] && i < others[1]))
           add(i, others, is_agreed);
       }
+    clearNegativeShares();
     // Where the surface ends is known no better than by a point.
     for (std::uint32_t i = 0; i < points_.corners.size(); ++i)
       if (fans_.isOnRim(i) && !fans_.getFan(i).empty())
@@ -137,6 +138,34 @@ public:
   MeasuredSurface surface;
 
 private:
+  /** Fields are averaged by shares: negative ones, of thin triangles that not all of
+   * their corners know, become 0, and the others as much smaller. If little but these
+   * is left, the area is that of the others. */
+  void
+  clearNegativeShares()
+  {
+    std::vector<double> sums(surface.integrals.size()), positive(sums.size());
+    const auto forShares = [&](const auto& visit) {
+      for (std::uint32_t i = 0; i < points_.corners.size(); ++i)
+        if (!fans_.getFan(i).empty())
+          visit(pieceOf(i), surface.shares[sourceOf(i)]);
+    };
+    forShares([&](std::size_t piece, double& share) {
+      sums[piece] += share;
+      share = std::max(0.0, share);
+      positive[piece] += share;
+    });
+    forShares([&](std::size_t piece, double& share) {
+      if (sums[piece] > 0.0 && sums[piece] < positive[piece])
+        share *= sums[piece] / positive[piece];
+    });
+    for (std::size_t piece = 0; piece < sums.size(); ++piece)
+      if (sums[piece] <= 0.0) {
+        surface.integrals[piece].area = positive[piece];
+        surface.integrals[piece].area_error += positive[piece] - sums[piece];
+      }
+  }
+
   std::uint32_t
   sourceOf(std::uint32_t point) const
   {

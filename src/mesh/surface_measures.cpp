@@ -62,8 +62,6 @@ public:
     const double error = error_ ? error_->read(vertices_.point(vertex)) : 0.0;
     if (!std::isfinite(error) || error < 0.0)
       return false;
-    // Of points, shares of single ones may be negative.
-    share = std::abs(share);
     integrals.volume_error += share * error;
     integrals.area_error += rim_length * error;
     const double curvature =

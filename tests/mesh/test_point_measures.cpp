@@ -109,6 +109,39 @@ TEST(PointMeasures, SharesAddUpToIntegrals)
   EXPECT_NEAR(integral, figures.pieces[0].on_surface[0].integral.value, 1e-12);
 }
 
+/** Points along a track, with normals to all sides, have thin triangles that few of
+ * their corners know. */
+TEST(PointMeasures, MeansOfFieldsLieWithinTheirRange)
+{
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    Random random(seed);
+    MeasuredShape track;
+    for (int i = 0; i < 60; ++i) {
+      track.places.emplace_back(1e4 * random.uniform(), 300.0 * random.uniform(), 10.0);
+      track.places.back()[2] *= random.uniform();
+      track.normals.push_back(
+          Eigen::Vector3d(random.uniform() - 0.5, random.uniform() - 0.5, 0.2)
+              .normalized());
+    }
+    auto points = std::make_shared<Dataset>(track.toDataset());
+    std::vector<double> errors;
+    for (std::size_t i = 0; i < track.places.size(); ++i)
+      errors.push_back(1.0 + random.uniform());
+    setField(*points, "error", errors);
+    SurfaceMeasures measures;
+    measures.setInputSurface(points, {});
+    const SurfaceFigures figures = measures.compute();
+    for (const PieceMeasures& piece : figures.pieces) {
+      EXPECT_GT(piece.area.value, 0.0) << seed;
+      EXPECT_GE(piece.area.error, 0.0) << seed;
+      for (const auto& field : piece.on_surface) {
+        EXPECT_GE(field.mean, 1.0) << seed << ' ' << field.name;
+        EXPECT_LE(field.mean, 2.0) << seed << ' ' << field.name;
+      }
+    }
+  }
+}
+
 TEST(PointMeasures, TellTheirInput)
 {
   SurfaceMeasures measures;
