@@ -16,6 +16,7 @@
 #include "shared/progress_bar.h"
 #include "shared/series.h"
 #include "shared/size_option.h"
+#include "uvol_measure/block_measures.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/mesh/surface_measures.h>
@@ -42,6 +43,7 @@ struct Arguments : uvol_tools::IsosurfaceOptions {
   std::uint64_t drop_pieces = 0;
   uvol_tools::SizeOption size;
   uvol_tools::PeriodicOption periodic;
+  std::vector<double> block;
   bool drop_unsure = false, with_pieces = false, is_flat = false, is_checked = false;
 };
 
@@ -60,6 +62,13 @@ declare(Options& options, Arguments& arguments)
                   std::numeric_limits<std::int32_t>::max(),
                   "of samples: leave out pieces of fewer triangles");
   arguments.periodic.declare(options);
+  options.numbers("block",
+                  "dx,dy,dz",
+                  3,
+                  arguments.block,
+                  "of samples: instead of surfaces, volumes and means beyond the "
+                  "isovalues by kriging blocks of these sides, as tonnage and grade "
+                  "above a cutoff");
   options.group("Input");
   options.input("samples",
                 "file",
@@ -101,8 +110,24 @@ isOfGivenSamples(const Options& options, const std::string& name)
 }
 
 void
+checkBlock(const Options& options)
+{
+  if (!options.given("block"))
+    return;
+  if (!options.given("iso"))
+    throw UsageError(
+        "-block needs -iso, the values beyond which volumes are asked for.");
+  for (const char* const name :
+       {"smooth", "drop-pieces", "periodic", "pieces", "flat", "drop-unsure", "check"})
+    if (options.given(name))
+      throw UsageError(std::string("-") + name +
+                       " is for surfaces, and -block takes none.");
+}
+
+void
 check(const Options& options, Arguments& arguments)
 {
+  checkBlock(options);
   const bool has_isovalues = options.given("iso");
   for (const char* const name : {"field",
                                  "where",
@@ -180,12 +205,9 @@ loadSurface(const Options& options, const Arguments& arguments, Report& report)
   return surface;
 }
 
-/** Meshes of the isosurfaces of samples. */
-Surface
-extractSurface(const Options& options,
-               Arguments& arguments,
-               uvol_tools::MemoryGuard& memory,
-               Report& report)
+/** Samples with the field that is asked for. */
+std::shared_ptr<Dataset>
+loadSamples(const Options& options, Arguments& arguments, Report& report)
 {
   const auto samples =
       std::make_shared<Dataset>(uvol_tools::loadPoints(arguments.input,
@@ -194,14 +216,25 @@ extractSurface(const Options& options,
                                                        arguments.getWhere(),
                                                        options.threads()));
   arguments.resolveSpacing(*samples);
+  uvol_tools::addField(
+      *samples, arguments.parameters.isosurface.field, options, report);
+  pcl_uvol::refuseNames(*samples, arguments.parameters.isosurface.field);
+  return samples;
+}
+
+/** Meshes of the isosurfaces of samples. */
+Surface
+extractSurface(const Options& options,
+               Arguments& arguments,
+               uvol_tools::MemoryGuard& memory,
+               Report& report)
+{
+  const auto samples = loadSamples(options, arguments, report);
   const std::array<double, 3> sides = arguments.periodic.findSides(*samples, report);
   if (pcl_uvol::isPeriodic(sides)) {
     arguments.parameters.periodic = {sides[0], sides[1], sides[2]};
     arguments.parameters.periodic_mesh = pcl_uvol::PeriodicMesh::Weld;
   }
-  uvol_tools::addField(
-      *samples, arguments.parameters.isosurface.field, options, report);
-  pcl_uvol::refuseNames(*samples, arguments.parameters.isosurface.field);
   memory.checkCloud(
       *samples, [&](double points, double step, pcl_uvol::MemoryForecast& forecast) {
         pcl_uvol::addMemoryNeed(arguments.parameters, points, step, {}, 0.0, forecast);
@@ -214,6 +247,13 @@ extractSurface(const Options& options,
   pcl_uvol::IsosurfaceResult result = pipeline.run();
   report.merge(result.report);
   pcl_uvol::warnOfConflicts(report.getCount("samples"), 1, report);
+  if (2 * (report.getCount("bridged") + report.getCount("rim")) >
+      report.getCount("isopoints"))
+    report.warnings.push_back(
+        "Most of the surface lies between lines of samples or beside gaps: its area, "
+        "its "
+        "volume and what is inside are guesses. Try: -block dx,dy,dz estimates volumes "
+        "and means beyond a value without a surface.");
   if (result.triangles.empty())
     throw pcl_uvol::InvalidArgument(
         "There is no isosurface to measure: " + result.field +
@@ -293,10 +333,9 @@ savePicture(const Arguments& arguments, const uvol_tools::Profile& profile)
 }
 
 void
-drawCurve(const Arguments& arguments, const SurfaceFigures& figures)
+drawCurve(const Arguments& arguments, const uvol_tools::MeasureTable& table)
 {
-  uvol_tools::Profile profile =
-      makeProfile(arguments, uvol_tools::MeasureTable(figures.isovalues), "isovalue");
+  uvol_tools::Profile profile = makeProfile(arguments, table, "isovalue");
   if (areLogarithmic(profile.abscissas)) {
     for (double& isovalue : profile.abscissas)
       isovalue = std::log10(isovalue);
@@ -305,14 +344,60 @@ drawCurve(const Arguments& arguments, const SurfaceFigures& figures)
   savePicture(arguments, profile);
 }
 
-/** The rows of the table. */
-uvol_tools::MeasureTable
-makeTable(const Arguments& arguments, const SurfaceFigures& figures)
+/** A table with a row per isovalue, and per piece if that is asked for, and what is
+ * told of it. */
+struct Measured {
+  uvol_tools::MeasureTable table;
+  uvol_tools::Facts facts;
+};
+
+Measured
+measureSurfaces(const Options& options,
+                const Arguments& arguments,
+                const Surface& surface,
+                Report& report)
 {
+  pcl_uvol::SurfaceMeasuresParameters parameters;
+  parameters.curved = !arguments.is_flat;
+  parameters.find_intersections = arguments.is_checked;
+  parameters.drop_unsure = arguments.drop_unsure;
+  parameters.field = surface.field;
+  parameters.outside = arguments.parameters.isosurface.outside;
+  parameters.periodic = {surface.periodic[0], surface.periodic[1], surface.periodic[2]};
+  const SurfaceFigures figures =
+      uvol_tools::measureSurface(surface.vertices,
+                                 surface.triangles,
+                                 surface.samples,
+                                 arguments.parameters.isosurface.isovalues,
+                                 parameters,
+                                 options.threads(),
+                                 report);
   uvol_tools::MeasureTable table(figures.isovalues);
   if (arguments.with_pieces)
     table.append(figures.pieces);
-  return table;
+  return {table, uvol_tools::describeMeasures(figures)};
+}
+
+Measured
+measureBlocks(const Options& options, Arguments& arguments, Report& report)
+{
+  pcl_uvol::IsosurfacePipeline pipeline; // finds what is left to it: field and scale
+  const auto samples = loadSamples(options, arguments, report);
+  pipeline.setInput(samples);
+  pipeline.setParameters(arguments.parameters);
+  pipeline.setNumberOfThreads(options.threads());
+  const pcl_uvol::IsosurfaceParameters parameters = pipeline.resolveParameters();
+  auto found = pcl_uvol::detail::estimateBlockVolumes(
+      pcl_uvol::viewOf(samples->cloud),
+      parameters,
+      arguments.parameters.rotation,
+      Eigen::Map<const Eigen::Array3d>(arguments.block.data()).cast<float>(),
+      options.threads(),
+      report);
+  for (pcl_uvol::detail::BlockVolume& beyond : found.isovalues)
+    beyond.centroid += Eigen::Map<const Eigen::Vector3d>(samples->origin.data());
+  return {uvol_tools::makeTable(found, parameters.field),
+          uvol_tools::describeBlocks(found, parameters.field)};
 }
 
 /** What the files of a series have in common: a table over time, and its picture. */
@@ -322,14 +407,13 @@ public:
   void
   add(const Arguments& arguments,
       const uvol_tools::SeriesStep& step,
-      const SurfaceFigures& figures)
+      uvol_tools::MeasureTable rows)
   {
     // Which outputs are those of all files is known while one of them is worked on.
     arguments_ = arguments;
     writes_table_ = uvol_tools::isOfAll(arguments.output);
     draws_curve_ = uvol_tools::isOfAll(arguments.picture);
     have_times_ = have_times_ && step.time;
-    uvol_tools::MeasureTable rows = makeTable(arguments, figures);
     rows.prepend("time", step.time.value_or(std::numeric_limits<double>::quiet_NaN()));
     rows.prepend("number", static_cast<double>(step.number));
     table_.append(rows);
@@ -357,7 +441,7 @@ public:
 
 private:
   Arguments arguments_;
-  uvol_tools::MeasureTable table_{{}};
+  uvol_tools::MeasureTable table_{uvol_tools::Fact::Members()};
   bool have_times_ = true, writes_table_ = false, draws_curve_ = false;
   std::size_t files_ = 0;
 };
@@ -383,35 +467,23 @@ run(int argc, char** argv, const uvol_tools::SeriesStep* step, MeasureSeries& se
   Report report;
   uvol_tools::ProgressBar bar;
   report.progress = std::ref(bar);
-  const Surface surface = options.given("iso")
-                              ? extractSurface(options, arguments, memory, report)
-                              : loadSurface(options, arguments, report);
-  pcl_uvol::SurfaceMeasuresParameters parameters;
-  parameters.curved = !arguments.is_flat;
-  parameters.find_intersections = arguments.is_checked;
-  parameters.drop_unsure = arguments.drop_unsure;
-  parameters.field = surface.field;
-  parameters.outside = arguments.parameters.isosurface.outside;
-  parameters.periodic = {surface.periodic[0], surface.periodic[1], surface.periodic[2]};
-  const SurfaceFigures figures =
-      uvol_tools::measureSurface(surface.vertices,
-                                 surface.triangles,
-                                 surface.samples,
-                                 arguments.parameters.isosurface.isovalues,
-                                 parameters,
-                                 options.threads(),
-                                 report);
-
+  const Measured measured =
+      options.given("block")
+          ? measureBlocks(options, arguments, report)
+          : measureSurfaces(options,
+                            arguments,
+                            options.given("iso")
+                                ? extractSurface(options, arguments, memory, report)
+                                : loadSurface(options, arguments, report),
+                            report);
   if (step)
-    series.add(arguments, *step, figures);
+    series.add(arguments, *step, measured.table);
   if (!arguments.picture.empty() && !uvol_tools::isOfAll(arguments.picture))
-    drawCurve(arguments, figures);
+    drawCurve(arguments, measured.table);
   if (!arguments.output.empty() && !uvol_tools::isOfAll(arguments.output))
-    uvol_tools::savePoints(
-        arguments.output, makeTable(arguments, figures).toDataset(), {}, report);
+    uvol_tools::savePoints(arguments.output, measured.table.toDataset(), {}, report);
   uvol_tools::Facts facts = {{"input", arguments.input}};
-  for (const uvol_tools::Fact& fact : uvol_tools::describeMeasures(figures))
-    facts.push_back(fact);
+  facts.insert(facts.end(), measured.facts.begin(), measured.facts.end());
   uvol_tools::printReport(options, report, facts);
   return 0;
 }

@@ -298,7 +298,8 @@ run(int argc, char** argv, uvol_tools::SeriesStep* step)
   std::optional<Slice> lattice;
   if (kind != Kind::None && kind != Kind::Points)
     lattice = arguments.queries.makeLattice(findBounds(samples, boxed.getSides()));
-  const auto cells = loadCells(arguments, load, samples, boxed.isPeriodic(), report);
+  const auto cells =
+      loadCells(arguments, of_samples, samples, boxed.isPeriodic(), report);
   memory.checkCloud(
       samples,
       forecastMemory(arguments,

@@ -157,7 +157,8 @@ def _parts(surface, what):
 
 
 @_parameters.with_proposals
-def measure(surface, *, samples=None, curved=True, find_intersections=False, threads=0, progress=None):
+def measure(surface, *, samples=None, curved=True, find_intersections=False, drop_unsure=False, threads=0,
+            progress=None):
     """Area, volume, axes, genus and integrals of fields of a surface, each with its
     error.
 
@@ -171,6 +172,8 @@ def measure(surface, *, samples=None, curved=True, find_intersections=False, thr
         Bend triangles as the normals of their vertices tell.
     find_intersections : bool
         Look for triangles that go through one another.
+    drop_unsure : bool
+        Leave out pieces whose error is as large as they are, as around debris.
     threads, progress
         As those of `isosurface`.
 
@@ -192,7 +195,8 @@ def measure(surface, *, samples=None, curved=True, find_intersections=False, thr
     else:
         samples = as_samples(samples, None)._on_map_of(vertices)
     parameters = {"curved": _parameters.flag(curved, "curved"),
-                  "find_intersections": _parameters.flag(find_intersections, "find_intersections")}
+                  "find_intersections": _parameters.flag(find_intersections, "find_intersections"),
+                  "drop_unsure": _parameters.flag(drop_unsure, "drop_unsure")}
     made_with = getattr(surface, "parameters", {})
     if "isosurface" in made_with:  # so that the samples beyond the isovalue are known, and the periodic box
         parameters.update(field=surface.report["field"], outside=made_with["isosurface"]["outside"],

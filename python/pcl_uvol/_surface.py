@@ -99,7 +99,7 @@ class Surface(Drawable, Points):
         return _extract(_core.Extractor(), self._samples, parameters, threads, progress)
 
     @_parameters.with_proposals
-    def measure(self, curved=True, find_intersections=False, threads=0, progress=None):
+    def measure(self, curved=True, find_intersections=False, threads=0, progress=None, *, drop_unsure=False):
         """Area, volume, axes, genus and integrals of fields, each with its error: those
         of `mesh()` with its usual parameters. `pcl_uvol.measure` measures the points.
 
@@ -109,6 +109,8 @@ class Surface(Drawable, Points):
             Bend triangles as the normals of their vertices tell.
         find_intersections : bool
             Look for triangles that go through one another.
+        drop_unsure : bool
+            Leave out pieces whose error is as large as they are, as around debris.
         threads, progress
             As those of `isosurface`.
 
@@ -126,7 +128,8 @@ class Surface(Drawable, Points):
         >>> bool(abs(figures.volume.value - 4 / 3 * np.pi * 0.3**3) < 1e-4), figures.genus
         (True, 0)
         """
-        return self.mesh(threads=threads, progress=progress).measure(curved, find_intersections, threads, progress)
+        return self.mesh(threads=threads, progress=progress).measure(curved, find_intersections, threads, progress,
+                                                                    drop_unsure=drop_unsure)
 
     def _comments(self):
         isovalues = ",".join(f"{value:g}" for value in self.report["isovalues"])
@@ -201,12 +204,12 @@ class Mesh(Surface):
         return self.points
 
     @_parameters.with_proposals
-    def measure(self, curved=True, find_intersections=False, threads=0, progress=None):
+    def measure(self, curved=True, find_intersections=False, threads=0, progress=None, *, drop_unsure=False):
         """Area, volume, axes, genus and integrals of fields, each with its error.
 
         Parameters
         ----------
-        curved, find_intersections, threads, progress
+        curved, find_intersections, drop_unsure, threads, progress
             As those of `Surface.measure`.
 
         Returns
@@ -221,8 +224,8 @@ class Mesh(Surface):
         >>> bool(abs(mesh.measure().area.value - 4 * np.pi * 0.3**2) < 1e-3)
         True
         """
-        return _measures.measure(self, curved=curved, find_intersections=find_intersections, threads=threads,
-                                 progress=progress)
+        return _measures.measure(self, curved=curved, find_intersections=find_intersections,
+                                 drop_unsure=drop_unsure, threads=threads, progress=progress)
 
     @_parameters.with_proposals
     def save(self, path, ascii=False, progress=None):

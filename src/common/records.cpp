@@ -179,6 +179,7 @@ RecordLayout::RecordLayout(const RecordInfo& info, std::size_t step)
   header_.double_coordinates = info.double_coordinates.value_or(doubles);
   header_.origin = info.origin.value_or(header_.origin);
   needs_origin_ = !floats_ && !info.origin;
+  is_global_ = info.is_global;
   PackedLayout packed = packedLayout(fields, floats_);
   runs_ = std::move(packed.runs);
   point_bytes_ = recordBytes(packed.fields);
@@ -198,7 +199,8 @@ RecordLayout::isIdentity() const
 void
 RecordLayout::setOrigin(const CoordinateRange& range)
 {
-  header_.origin = findOrigin(range, header_.notes);
+  std::vector<std::string> of_degrees; // what the map rounds counts
+  header_.origin = findOrigin(range, is_global_ ? of_degrees : header_.notes);
   needs_origin_ = false;
 }
 
@@ -245,7 +247,7 @@ RecordLayout::convert(const std::uint8_t* records,
 std::string
 RecordLayout::describeMerging(const std::uint8_t* records, std::size_t count) const
 {
-  if (floats_)
+  if (floats_ || is_global_)
     return "";
   const auto position_at = [&](std::size_t i) -> std::array<double, 3> {
     const std::uint8_t* const record = records + i * record_step_;

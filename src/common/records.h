@@ -96,6 +96,7 @@ struct PCL_UVOL_EXPORTS RecordInfo {
   std::vector<std::string> notes;
   std::optional<bool> double_coordinates; ///< unset: the types of x, y, z tell
   bool has_coordinates = true;
+  bool is_global = false; ///< x and y are degrees, and points are put on a map later
   std::optional<std::array<double, 3>> origin; ///< unset: the coordinates tell
   std::array<double, 3> box{{0.0, 0.0, 0.0}};  ///< as Dataset::box
   std::optional<double> time;                  ///< of a snapshot, in the file's unit
@@ -158,7 +159,7 @@ private:
   std::size_t point_bytes_; ///< without what aligns the next point
   std::array<FieldComponent, 3> axes_{};
   bool floats_ = true; ///< x, y, z are copied as they are
-  bool needs_origin_ = false;
+  bool needs_origin_ = false, is_global_ = false;
 };
 
 /** \brief The origin of coordinates.

@@ -456,7 +456,7 @@ BlendedFits::BlendedFits(const SampledFields& sampled,
     : sampled_(sampled)
     , sparse_(sparseSamples(*sampled.samples))
     , fits_(sampled, threads)
-    , kriging_(sampled, KrigingParameters{}, frames, names)
+    , kriging_(sampled, KrigingParameters{}, Eigen::Matrix3d::Identity(), frames, names)
 {
 }
 

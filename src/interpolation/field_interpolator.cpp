@@ -35,6 +35,7 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 std::unique_ptr<FieldModel>
 makeModel(const SampledFields& sampled,
           const InterpolationParameters& parameters,
+          const Eigen::Matrix3d& turn,
           const std::vector<ValueFrame>& frames,
           const std::vector<std::string>& names,
           const CloudView& cloud,
@@ -51,7 +52,8 @@ makeModel(const SampledFields& sampled,
   case InterpolationModel::Laplace:
     return std::make_unique<NaturalModel>(sampled, NaturalCoordinates::Laplace);
   case InterpolationModel::Kriging:
-    return std::make_unique<KrigingModel>(sampled, parameters.kriging, frames, names);
+    return std::make_unique<KrigingModel>(
+        sampled, parameters.kriging, turn, frames, names);
   case InterpolationModel::Sph:
     return std::make_unique<KernelSums>(
         sampled,
@@ -136,7 +138,8 @@ struct FieldInterpolator::Group {
     std::vector<std::string> own_names;
     for (const std::size_t field : fields)
       own_names.push_back(names[field]);
-    model = makeModel(sampled, parameters, frames, own_names, cloud, threads, report);
+    model =
+        makeModel(sampled, parameters, turn, frames, own_names, cloud, threads, report);
   }
 
   /** Values into leaf order; a merged sample takes the median of its members'. */

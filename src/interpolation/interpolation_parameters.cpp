@@ -59,6 +59,11 @@ check(const KrigingParameters& kriging)
         "number of samples of a neighbourhood",
         static_cast<double>(kriging.k),
         "1 to 512");
+  for (const float side : kriging.block)
+    check(std::isfinite(side) && side >= 0.0f,
+          "side of a block",
+          static_cast<double>(side),
+          level);
   check(kriging.trend >= 0 && kriging.trend <= 2, "trend", kriging.trend, "0, 1 or 2");
 }
 

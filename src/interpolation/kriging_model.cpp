@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "interpolation/kriging_model.h"
 
-#include "interpolation/kriging_system.h"
 #include "interpolation/query_search.h"
 #include "interpolation/support_finder.h"
 #include "neighbors/metric_finder.h"
@@ -127,6 +126,7 @@ private:
 
 KrigingModel::KrigingModel(const SampledFields& sampled,
                            const KrigingParameters& parameters,
+                           const Eigen::Matrix3d& turn,
                            const std::vector<ValueFrame>& frames,
                            const std::vector<std::string>& names)
     : sampled_(sampled)
@@ -134,6 +134,11 @@ KrigingModel::KrigingModel(const SampledFields& sampled,
     , metric_(makeMetric(parameters))
     , sparse_(sparseSamples(*sampled.samples))
 {
+  const Position& scale = sampled.samples->getUnit().scale;
+  const Eigen::MatrixX3d block = KrigingTarget::divideBlock(
+      parameters.block,
+      metric_ * Eigen::Map<const Eigen::Vector3f>(scale.x).cast<double>().asDiagonal() *
+          turn);
   for (std::size_t f = 0; f < sampled.fields; ++f) {
     const double factor = frames[f].factor * frames[f].factor;
     const Variogram given{parameters.variogram,
@@ -144,6 +149,8 @@ KrigingModel::KrigingModel(const SampledFields& sampled,
         computeEmpiricalVariograms(sampled, f, metric_, parameters.trend);
     const Variogram fitted = fitVariogram(empirical.all, given);
     variograms_.push_back({fitted, std::move(empirical)});
+    targets_.push_back((parameters.block > 0.0f).any() ? KrigingTarget(fitted, block)
+                                                       : KrigingTarget(fitted));
     if (!(fitted.sill + fitted.nugget > 0.0))
       constant_.push_back(names[f]);
   }
@@ -175,8 +182,8 @@ KrigingModel::evaluate(const Query* queries,
       const Variogram& variogram = variograms_[f].model;
       KrigingEstimate estimate{values[0], 0.0, Vector3d::Zero()};
       if (variogram.sill + variogram.nugget > 0.0)
-        estimate =
-            KrigingSystem(offsets, variogram, parameters_.trend).estimate(values);
+        estimate = KrigingSystem(offsets, variogram, targets_[f], parameters_.trend)
+                       .estimate(values);
       const std::size_t place = i * sampled_.fields + f;
       estimates.values[place] = estimate.value;
       if (estimates.errors)

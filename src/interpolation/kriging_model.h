@@ -5,6 +5,7 @@
 
 #include "common/value_frame.h"
 #include "interpolation/field_model.h"
+#include "interpolation/kriging_system.h"
 #include "interpolation/variogram.h"
 
 #include <string>
@@ -20,9 +21,11 @@ namespace pcl_uvol::detail {
 class KrigingModel : public FieldModel {
 public:
   /** \param frames of the fields
-   * \param names of the fields, for messages */
+   * \param names of the fields, for messages
+   * \param turn from offsets of the input to the axes of the samples */
   KrigingModel(const SampledFields& sampled,
                const KrigingParameters& parameters,
+               const Eigen::Matrix3d& turn,
                const std::vector<ValueFrame>& frames,
                const std::vector<std::string>& names);
 
@@ -46,7 +49,8 @@ private:
   KrigingParameters parameters_;
   Eigen::Matrix3d metric_;
   std::vector<FittedVariogram> variograms_;
-  std::vector<std::string> constant_; ///< names of fields that are
+  std::vector<KrigingTarget> targets_; ///< of each field
+  std::vector<std::string> constant_;  ///< names of fields that are
   std::vector<Position> sparse_;
 };
 

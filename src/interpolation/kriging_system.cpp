@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace pcl_uvol::detail {
 
@@ -12,13 +13,51 @@ namespace {
  * of Gaussian variograms without nugget. */
 constexpr double least_ridge = 1e-12, ridge_factor = 10.0, largest_ridge = 1e-2;
 
+/** Places of a block along a side. */
+constexpr int places_along = 4;
+
 } // namespace
+
+KrigingTarget::KrigingTarget(const Variogram& variogram)
+    : places(Eigen::MatrixX3d::Zero(1, 3))
+    , variance(variogram.nugget + variogram.sill)
+{
+}
+
+KrigingTarget::KrigingTarget(const Variogram& variogram, Eigen::MatrixX3d block)
+    : places(std::move(block))
+    , variance(0.0)
+{
+  for (Eigen::Index i = 0; i < places.rows(); ++i)
+    for (Eigen::Index j = 0; j < places.rows(); ++j)
+      variance += variogram.covariance((places.row(i) - places.row(j)).norm());
+  variance /= static_cast<double>(places.rows() * places.rows());
+}
+
+Eigen::MatrixX3d
+KrigingTarget::divideBlock(const Eigen::Array3f& sides,
+                           const Eigen::Matrix3d& to_metric)
+{
+  Eigen::Array3i counts;
+  for (Eigen::Index axis = 0; axis < 3; ++axis)
+    counts[axis] = sides[axis] > 0.0f ? places_along : 1;
+  Eigen::MatrixX3d places(counts.prod(), 3);
+  for (int i = 0; i < counts.prod(); ++i) {
+    const Eigen::Array3i at(
+        i % counts[0], i / counts[0] % counts[1], i / (counts[0] * counts[1]));
+    const Eigen::Array3d part = (at.cast<double>() + 0.5) / counts.cast<double>() - 0.5;
+    places.row(i) = (to_metric * (part * sides.cast<double>()).matrix()).transpose();
+  }
+  return places;
+}
 
 KrigingSystem::KrigingSystem(const Eigen::MatrixX3d& offsets,
                              const Variogram& variogram,
+                             const KrigingTarget& target,
                              int trend)
     : offsets_(offsets)
     , variogram_(variogram)
+    , target_(target)
     , trend_(trend)
     , unit_(std::sqrt(offsets.rowwise().squaredNorm().maxCoeff()))
 {
@@ -29,16 +68,24 @@ KrigingSystem::KrigingSystem(const Eigen::MatrixX3d& offsets,
     --trend_;
   const double variance = variogram.nugget + variogram.sill;
   Eigen::MatrixXd matrix(count, count);
-  to_origin_.resize(count);
+  to_target_.setZero(count);
   terms_.resize(count, trendTerms(trend_));
   for (Eigen::Index i = 0; i < count; ++i) {
     const Eigen::RowVector3d at = offsets.row(i);
     for (Eigen::Index j = 0; j < i; ++j)
       matrix(i, j) = variogram.covariance((at - offsets.row(j)).norm());
     matrix(i, i) = variance;
-    to_origin_[i] = variogram.covariance(at.norm());
+    for (Eigen::Index j = 0; j < target.places.rows(); ++j) {
+      const Eigen::RowVector3d offset = at - target.places.row(j);
+      to_target_[i] += variogram.covariance(offset.norm());
+    }
     terms_.row(i) = trendAt(at.transpose() / unit_, trend_);
   }
+  const auto places = static_cast<double>(target.places.rows());
+  to_target_ /= places;
+  target_terms_.setZero(terms_.cols());
+  for (Eigen::Index j = 0; j < target.places.rows(); ++j)
+    target_terms_ += trendAt(target.places.row(j).transpose() / unit_, trend_) / places;
   covariance_.compute(matrix);
   for (double ridge = least_ridge;
        covariance_.info() != Eigen::Success && ridge <= largest_ridge;
@@ -61,20 +108,24 @@ KrigingSystem::estimate(const Eigen::VectorXd& values) const
       trend_equations_.solve(solved_terms_.transpose() * relative);
   const Eigen::VectorXd dual = covariance_.solve(relative - terms_ * trend);
   KrigingEstimate estimate;
-  estimate.value = reference + trend[0] + to_origin_.dot(dual);
+  estimate.value = reference + target_terms_.dot(trend) + to_target_.dot(dual);
   estimate.gradient.setZero();
   if (trend_ > 0)
     estimate.gradient = trend.segment<3>(1) / unit_;
-  for (Eigen::Index i = 0; i < offsets_.rows(); ++i) {
-    const double distance = offsets_.row(i).norm();
-    if (distance > 0.0)
-      estimate.gradient -=
-          dual[i] * variogram_.covarianceSlope(distance) * offsets_.row(i).transpose();
-  }
-  const Eigen::VectorXd solved = covariance_.solve(to_origin_);
-  Eigen::VectorXd missing = -terms_.transpose() * solved; // of the terms at the origin
-  missing[0] += 1.0;
-  const double variance = variogram_.nugget + variogram_.sill - to_origin_.dot(solved) +
+  const auto places = static_cast<double>(target_.places.rows());
+  for (Eigen::Index i = 0; i < offsets_.rows(); ++i)
+    for (Eigen::Index j = 0; j < target_.places.rows(); ++j) {
+      const Eigen::Vector3d offset =
+          (offsets_.row(i) - target_.places.row(j)).transpose();
+      const double distance = offset.norm();
+      if (distance > 0.0)
+        estimate.gradient -=
+            dual[i] * variogram_.covarianceSlope(distance) / places * offset;
+    }
+  const Eigen::VectorXd solved = covariance_.solve(to_target_);
+  Eigen::VectorXd missing = -terms_.transpose() * solved; // of the terms of the target
+  missing += target_terms_;
+  const double variance = target_.variance - to_target_.dot(solved) +
                           missing.dot(trend_equations_.solve(missing));
   estimate.variance = std::max(0.0, variance);
   return estimate;

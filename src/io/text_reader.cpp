@@ -466,6 +466,7 @@ TextTable::describe()
   info.double_coordinates =
       !(columns_[0].floats && columns_[1].floats && columns_[2].floats);
   info.has_coordinates = has_coordinates_;
+  info.is_global = is_global_;
   if (!is_global_) // else that of the map counts
     info.origin = findOrigin(range_, info.notes);
   return info;

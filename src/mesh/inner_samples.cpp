@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -85,6 +86,7 @@ struct CellSums {
   double sq_deviation = 0.0; ///< squares of volume times difference to the next sample
   double at_surface = 0.0;   ///< volume of cells beside the surface times difference to
                              ///< the value there
+  double low = std::numeric_limits<double>::infinity(), high = -low; ///< values
 };
 
 /** Integrals over what the pieces enclose, by the cells of the samples. */
@@ -129,6 +131,8 @@ public:
       const double volume = volumes_[point.index];
       of_piece.volume += point.turns * volume;
       of_piece.integral += point.turns * volume * value;
+      of_piece.low = std::min(of_piece.low, value);
+      of_piece.high = std::max(of_piece.high, value);
       const std::size_t next =
           point.index + 1 < volumes_.size() ? point.index + 1 : point.index;
       const double step = valueOf(field, next) - value;
@@ -151,6 +155,8 @@ public:
         continue;
       sums.volume += volumes_[i];
       sums.integral += volumes_[i] * value;
+      sums.low = std::min(sums.low, value);
+      sums.high = std::max(sums.high, value);
     }
     return sums;
   }
@@ -199,7 +205,8 @@ meanOnSurface(const PieceMeasures& piece, const std::string& name)
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-/** The integral over a piece, what cells miss of its volume at the surface's value. */
+/** The integral over a piece, what cells miss of its volume at the surface's value. The
+ * mean is no value that is nowhere, however different the volumes are. */
 Measure
 estimateIntegral(const CellSums& sums, const PieceMeasures& piece, double at_surface)
 {
@@ -208,9 +215,17 @@ estimateIntegral(const CellSums& sums, const PieceMeasures& piece, double at_sur
   const double there =
       std::isfinite(at_surface) ? at_surface : sums.integral / sums.volume;
   const double cells = cell_deviation * std::sqrt(sums.sq_deviation);
-  return {sums.integral + there * (piece.volume.value - sums.volume),
+  const double volume = piece.volume.value,
+               raw = sums.integral + there * (volume - sums.volume),
+               bounded = volume * std::clamp(raw / volume,
+                                             std::min(sums.low, there),
+                                             std::max(sums.high, there));
+  const bool is_bounded =
+      volume != 0.0 && std::abs(bounded - raw) > 1e-9 * std::abs(raw);
+  return {is_bounded ? bounded : raw,
           cells + beyond_surface * sums.at_surface +
-              std::abs(there) * piece.volume.error};
+              std::abs(there) * piece.volume.error +
+              (is_bounded ? std::abs(bounded - raw) : 0.0)};
 }
 
 /** The samples and their sums, and integrals over the box. */

@@ -111,7 +111,13 @@ isFlat(const SurfaceIntegrals& integrals, const PieceMeasures& piece)
 void
 warnOfUnsure(const UnsurePieces& found, Report& report)
 {
-  if (found.unsure == 0 || found.unsure == found.pieces)
+  if (found.are_left_out && found.kept > 0)
+    report.warnings.push_back(
+        "All pieces of some isovalues (" + std::to_string(found.kept) + " of " +
+        std::to_string(found.pieces) +
+        " pieces) have an error as large as they are. They are kept, since nothing "
+        "would be left.");
+  if (found.unsure == 0)
     return;
   const auto words = describeNumbers({found.area.value, found.area.error});
   report.warnings.push_back(
@@ -120,7 +126,7 @@ warnOfUnsure(const UnsurePieces& found, Report& report)
       ") have an error as large as they are: few samples are around them, or only "
       "debris far from the others. " +
       (found.are_left_out ? "They are left out of all figures."
-                          : "Try: -drop-unsure, to leave them out."));
+                          : "Try: uvol_measure with -drop-unsure leaves them out."));
 }
 
 void

@@ -21,8 +21,10 @@ isFlat(const SurfaceIntegrals& integrals, const PieceMeasures& piece);
 
 /** \brief The unsure pieces of a surface. */
 struct UnsurePieces {
-  std::size_t pieces = 0, unsure = 0; ///< of the surface, and those that are unsure
-  Measure area{0.0, 0.0};             ///< of the unsure ones together
+  std::size_t pieces = 0; ///< of the surface
+  std::size_t unsure = 0; ///< that are, of isovalues with others
+  std::size_t kept = 0;   ///< that are, where nothing else would be left
+  Measure area{0.0, 0.0}; ///< of the unsure ones together
   bool are_left_out = false;
 };
 

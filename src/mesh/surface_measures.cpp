@@ -141,8 +141,9 @@ public:
     for (std::size_t i = 0; i < surface_.integrals.size(); ++i)
       figures.pieces.push_back(describePiece(i));
     describeFields();
-    findUnsure(drop_unsure);
-    nameIsovalues();
+    const std::vector<std::size_t> rank = nameIsovalues();
+    findUnsure(rank, drop_unsure);
+    sortPieces(rank);
   }
 
   /** The pieces of an isovalue together, once they are all measured. */
@@ -182,11 +183,16 @@ public:
         continue;
       if (all.volume < 0.0 || is_flat)
         all.volume = piece.volume.value = 0.0;
-      if (piece.samples >= 0 && !is_flat)
-        continue;
-      piece.samples = 0;
-      for (InnerFieldMeasures& field : piece.inside)
-        field = {field.name, {}, std::numeric_limits<double>::quiet_NaN(), 0.0};
+      if (piece.samples < 0 || is_flat) {
+        piece.samples = 0;
+        for (InnerFieldMeasures& field : piece.inside)
+          field.sum = 0.0;
+      }
+      if (all.volume == 0.0)
+        for (InnerFieldMeasures& field : piece.inside) {
+          field.integral = {};
+          field.mean = std::numeric_limits<double>::quiet_NaN();
+        }
     }
   }
 
@@ -286,26 +292,34 @@ private:
   }
 
   /** Find the pieces that are known no better than to their own size, and leave them
-   * out if that is asked for, unless nothing would be left. */
+   * out if that is asked for, unless nothing would be left of an isovalue. */
   void
-  findUnsure(bool drop)
+  findUnsure(const std::vector<std::size_t>& rank, bool drop)
   {
     unsure_.pieces = figures.pieces.size();
-    for (const PieceMeasures& piece : figures.pieces) {
-      is_left_out_.push_back(detail::isUnsure(piece));
-      if (!is_left_out_.back())
+    unsure_.are_left_out = drop;
+    is_left_out_.assign(figures.pieces.size(), false);
+    std::vector<bool> is_any_sure(figures.pieces.size() + 1); // by isovalue
+    for (std::size_t i = 0; i < figures.pieces.size(); ++i)
+      if (!detail::isUnsure(figures.pieces[i]))
+        is_any_sure[rank[i]] = true;
+    for (std::size_t i = 0; i < figures.pieces.size(); ++i) {
+      const PieceMeasures& piece = figures.pieces[i];
+      if (!detail::isUnsure(piece))
         continue;
+      if (!is_any_sure[rank[i]]) {
+        ++unsure_.kept;
+        continue;
+      }
+      is_left_out_[i] = drop;
       ++unsure_.unsure;
       unsure_.area.value += piece.area.value;
       unsure_.area.error += piece.area.error;
     }
-    unsure_.are_left_out = drop && unsure_.unsure < unsure_.pieces;
-    if (!unsure_.are_left_out)
-      is_left_out_.assign(is_left_out_.size(), false);
   }
 
-  /** Put the pieces in the order of their isovalues' first vertices. */
-  void
+  /** \return the order of the pieces' isovalues, by their first vertices */
+  std::vector<std::size_t>
   nameIsovalues()
   {
     const std::optional<ScalarField> field = findScalar(vertices_, "isovalue");
@@ -320,6 +334,13 @@ private:
         figures.pieces[piece].isovalue = isovalue;
       });
     }
+    return rank;
+  }
+
+  /** Put the pieces that are not left out in order. */
+  void
+  sortPieces(const std::vector<std::size_t>& rank)
+  {
     std::vector<std::size_t> places;
     for (std::size_t i = 0; i < figures.pieces.size(); ++i)
       if (!is_left_out_[i])
@@ -355,6 +376,7 @@ private:
   join(std::size_t begin, std::size_t end, PieceMeasures& all) const
   {
     SurfaceIntegrals integrals;
+    std::vector<double> volumes; // that fields are integrated over
     Eigen::AlignedBox3d bounds;
     for (std::size_t i = begin; i < end; ++i)
       for (const auto& corner : {figures.pieces[i].low, figures.pieces[i].high})
@@ -370,25 +392,32 @@ private:
       if (piece.genus)
         all.genus = all.genus.value_or(0) + *piece.genus;
       integrals.add(surface_.integrals[i].shifted(centers_[i] + origin_ - center));
-      if (piece.rims == 0)
-        detail::addInside(piece, all);
+      if (piece.rims > 0)
+        continue;
+      detail::addInside(piece, all);
+      volumes.resize(all.inside.size());
+      for (std::size_t k = 0; k < piece.inside.size(); ++k)
+        if (std::isfinite(piece.inside[k].integral.value))
+          volumes[k] += piece.volume.value;
     }
     std::copy_n(bounds.min().data(), 3, all.low.begin());
     std::copy_n(bounds.max().data(), 3, all.high.begin());
     if (surface_.closure && all.rims == 0)
-      fitIntoBox(integrals, all);
+      fitIntoBox(integrals, all, volumes);
     describeSize(integrals, all);
     describeShape(integrals, center, all);
     joinFields(begin, end, all);
-    for (InnerFieldMeasures& field : all.inside)
-      field.mean = all.volume.value != 0.0 ? field.integral.value / all.volume.value
-                                           : std::numeric_limits<double>::quiet_NaN();
+    for (std::size_t k = 0; k < all.inside.size(); ++k)
+      all.inside[k].mean = volumes[k] != 0.0 ? all.inside[k].integral.value / volumes[k]
+                                             : std::numeric_limits<double>::quiet_NaN();
   }
 
   /** Where pieces count what is outside of them, the box is added to what they enclose
    * together. */
   void
-  fitIntoBox(SurfaceIntegrals& integrals, PieceMeasures& all) const
+  fitIntoBox(SurfaceIntegrals& integrals,
+             PieceMeasures& all,
+             std::vector<double>& volumes) const
   {
     const double box = surface_.closure->getBoxVolume();
     if (!(box > 0.0) || (integrals.volume >= -integrals.volume_error &&
@@ -398,6 +427,8 @@ private:
     integrals.volume += times * box;
     integrals.is_solid = false;
     detail::addInside(whole_box_, all, times);
+    for (double& volume : volumes)
+      volume += times * box;
   }
 
   /** Field by field the sums over some pieces, of those that have a value. */

@@ -19,6 +19,10 @@ constexpr double slack = 0.01;
  * none. */
 constexpr double least_fill = 0.75;
 
+/** The same: unwrapped positions of a simulation lie in a few boxes beside each other,
+ * most of them in one. */
+constexpr double most_fill = 1.5;
+
 double
 chooseLow(const SampleExtents& extents, std::size_t axis, double side, double origin)
 {
@@ -30,14 +34,23 @@ chooseLow(const SampleExtents& extents, std::size_t axis, double side, double or
 }
 
 void
-warnIfEmpty(const SampleExtents& extents, std::size_t axis, double side, Report& report)
+warnOfMisfit(const SampleExtents& extents,
+             std::size_t axis,
+             double side,
+             Report& report)
 {
   const double length = extents.getLength(axis);
-  if (length >= least_fill * side)
-    return;
   std::ostringstream text;
-  text << "Samples fill " << length << " of the side " << side << " of the box along "
-       << "xyz"[axis] << ": if they should fill it, its side is wrong.";
+  if (length < least_fill * side)
+    text << "Samples fill " << length << " of the side " << side << " of the box along "
+         << "xyz"[axis] << ": if they should fill it, its side is wrong.";
+  else if (length > most_fill * side)
+    text << "Samples extend over " << length << " along "
+         << "xyz"[axis] << ", and the box has a side of " << side
+         << ": they are moved into it by whole sides. If they are not unwrapped "
+            "positions, the side is wrong.";
+  else
+    return;
   report.warnings.push_back(text.str());
 }
 
@@ -146,7 +159,7 @@ findPeriodicBox(const Dataset& part,
     if (!(sides[axis] > 0.0) || !(extents.low[axis] <= extents.high[axis]))
       continue;
     box.low[axis] = chooseLow(extents, axis, sides[axis], part.origin[axis]);
-    warnIfEmpty(extents, axis, sides[axis], report);
+    warnOfMisfit(extents, axis, sides[axis], report);
   }
   if (const auto outside = countOutside(viewOf(part.cloud), box); outside > 0)
     report.count("moved_into_box", outside);

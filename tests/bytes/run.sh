@@ -2,10 +2,15 @@
 # Runs the commands of a list and prints the SHA-256 of every file that they write, and
 # of their reports, which go without times, bytes of memory and the name of the processor's
 # instruction set.
-# usage: run.sh FOLDER_OF_TOOLS [LIST]
-# That of the default commands has to be expected.txt, and a change of results shows there. Another compiler may
-# round otherwise: compare.sh builds an older commit beside this tree.
+# usage: run.sh [-write] FOLDER_OF_TOOLS [LIST]
+# Results come first, then reports. Those of the default commands have to be results.txt and reports.txt, which -write
+# writes. Another compiler may round otherwise: compare.sh builds an older commit beside this tree.
 set -euo pipefail
+writes=no
+if [ "${1:-}" = -write ]; then
+  writes=yes
+  shift
+fi
 here=$(cd "$(dirname "$0")" && pwd)
 tools=$(cd "$1" && pwd)
 list=$(realpath "${2:-$here/commands.txt}")
@@ -28,4 +33,13 @@ while read -r tool arguments; do
   sed -e '/"milliseconds"/,/}/d' -e '/"memory": {/,/}/d' -e '/"backend"/d' "$report.raw" >"$report"
   rm "$report.raw"
 done <"$list"
-find . -type f | LC_ALL=C sort | xargs -d '\n' sha256sum
+sums() {
+  find . -type f "$@" -name 'report_of_*' | LC_ALL=C sort | xargs -rd '\n' sha256sum
+}
+if [ "$writes" = yes ]; then
+  sums ! >"$here/results.txt"
+  sums >"$here/reports.txt"
+else
+  sums !
+  sums
+fi

@@ -208,6 +208,37 @@ TEST(Kriging, OctantsLookAround)
   EXPECT_LT(sq_around, sq_nearest);
 }
 
+/** From the same samples a block is the mean of the places in it, in any metric. */
+TEST(Kriging, BlocksAreMeansOfTheirPlaces)
+{
+  const auto samples = sampleFunctions(randomPlaces(30, 41), {franke});
+  auto parameters = krigingBy(VariogramKind::Exponential);
+  parameters.kriging.nugget = 0.01;
+  parameters.kriging.sill = 1.0;
+  parameters.kriging.range = 0.5;
+  parameters.kriging.ratios[1] = 0.5f;
+  parameters.scale = {1.0f, 2.0f, 3.0f};
+  parameters.rotation = {30.0, 40.0, 10.0};
+  const std::array<double, 3> middle{0.5, 0.45, 0.55}, sides{0.4, 0.2, 0.0};
+  Places places;
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j)
+      places.push_back({middle[0] + (i - 1.5) / 4.0 * sides[0],
+                        middle[1] + (j - 1.5) / 4.0 * sides[1],
+                        middle[2]});
+  const auto of_places = interpolate(samples, parameters, places);
+  double mean = 0.0, error = 0.0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    mean += of_places.getValue(0, i) / 16.0;
+    error += of_places.getError(0, i) / 16.0;
+  }
+  parameters.kriging.block = {0.4f, 0.2f, 0.0f};
+  const auto of_block = interpolate(samples, parameters, {middle});
+  EXPECT_NEAR(mean, of_block.getValue(0, 0), 1e-6);
+  EXPECT_LT(of_block.getError(0, 0), 0.9 * error);
+  EXPECT_GT(of_block.getError(0, 0), 0.0);
+}
+
 TEST(Kriging, RefusesImpossibleVariograms)
 {
   const auto samples = sampleFunctions(randomPlaces(50, 37), {franke});
@@ -222,6 +253,7 @@ TEST(Kriging, RefusesImpossibleVariograms)
   refuses([](auto& kriging) { kriging.k = 0; });
   refuses([](auto& kriging) { kriging.k = 1000; });
   refuses([](auto& kriging) { kriging.trend = 3; });
+  refuses([](auto& kriging) { kriging.block[1] = -1.0f; });
   refuses([](auto& kriging) { kriging.ratios[2] = 0.0f; });
 }
 

@@ -61,13 +61,22 @@ randomCase(Eigen::Index n, std::uint64_t seed)
   return made;
 }
 
-/** Value and variance at the origin by the bordered system. */
+/** Estimate and variance of the mean over some places by the bordered system.
+ * \param prior variance of that mean without samples */
 std::pair<Real, Real>
-krige(const Case& at, const Variogram& variogram, int trend)
+krige(const Case& at,
+      const Variogram& variogram,
+      int trend,
+      const Eigen::MatrixX3d& places,
+      Real prior)
 {
+  const auto count = static_cast<Real>(places.rows());
   const Eigen::Index n = at.offsets.rows(), p = trendTerms(trend);
   MatrixX matrix = MatrixX::Zero(n + p, n + p);
   VectorX right = VectorX::Zero(n + p);
+  for (Eigen::Index k = 0; k < places.rows(); ++k)
+    right.tail(p) +=
+        trendAt(places.row(k).transpose(), trend).cast<Real>().transpose() / count;
   for (Eigen::Index i = 0; i < n; ++i) {
     for (Eigen::Index j = 0; j < n; ++j) {
       const Real h = (at.offsets.row(i) - at.offsets.row(j)).cast<Real>().norm();
@@ -75,17 +84,27 @@ krige(const Case& at, const Variogram& variogram, int trend)
           variogram.sill * correlationOf(variogram.kind, h / variogram.range) +
           (i == j ? variogram.nugget : 0.0);
     }
-    right[i] = variogram.sill *
-               correlationOf(variogram.kind,
-                             at.offsets.row(i).cast<Real>().norm() / variogram.range);
+    for (Eigen::Index k = 0; k < places.rows(); ++k) {
+      const Real h = (at.offsets.row(i) - places.row(k)).cast<Real>().norm();
+      right[i] +=
+          variogram.sill * correlationOf(variogram.kind, h / variogram.range) / count;
+    }
     const auto terms = trendAt(at.offsets.row(i).transpose(), trend);
     for (Eigen::Index k = 0; k < p; ++k)
       matrix(i, n + k) = matrix(n + k, i) = terms[k];
   }
-  right[n] = 1.0L;
   const VectorX weights = matrix.fullPivLu().solve(right);
-  return {weights.head(n).dot(at.values.cast<Real>()),
-          static_cast<Real>(variogram.nugget) + variogram.sill - weights.dot(right)};
+  return {weights.head(n).dot(at.values.cast<Real>()), prior - weights.dot(right)};
+}
+
+/** Places that are symmetric about the origin. */
+Eigen::MatrixX3d
+somePlaces()
+{
+  const Case at = randomCase(6, 11);
+  Eigen::MatrixX3d places(12, 3);
+  places << 0.3 * at.offsets, -0.3 * at.offsets;
+  return places;
 }
 
 TEST(KrigingSystem, SolvesTheTextbooksEquations)
@@ -95,14 +114,29 @@ TEST(KrigingSystem, SolvesTheTextbooksEquations)
       for (const double nugget : {0.0, 0.2}) {
         const Case at = randomCase(24, 7);
         const Variogram variogram{word.value, nugget, 1.5, 1.3};
-        const auto [value, variance] = krige(at, variogram, trend);
-        const KrigingSystem system(at.offsets, variogram, trend);
-        const KrigingEstimate estimate = system.estimate(at.values);
-        // Gaussian covariances are as good as singular.
-        const double close = word.value == VariogramKind::Gaussian ? 1e-5 : 1e-9;
-        EXPECT_NEAR(estimate.value, static_cast<double>(value), close) << word.word;
-        EXPECT_NEAR(estimate.variance, static_cast<double>(variance), close);
+        for (const KrigingTarget& target :
+             {KrigingTarget(variogram), KrigingTarget(variogram, somePlaces())}) {
+          const auto [value, variance] =
+              krige(at, variogram, trend, target.places, target.variance);
+          const KrigingSystem system(at.offsets, variogram, target, trend);
+          const KrigingEstimate estimate = system.estimate(at.values);
+          // Gaussian covariances are as good as singular.
+          const double close = word.value == VariogramKind::Gaussian ? 1e-5 : 1e-9;
+          EXPECT_NEAR(estimate.value, static_cast<double>(value), close) << word.word;
+          EXPECT_NEAR(estimate.variance, static_cast<double>(variance), close);
+        }
       }
+}
+
+TEST(KrigingTarget, OfABlockVariesLessThanAValue)
+{
+  const Variogram variogram{VariogramKind::Exponential, 0.2, 1.5, 1.0};
+  EXPECT_EQ(1.7, KrigingTarget(variogram).variance);
+  const KrigingTarget small(variogram, 1e-9 * somePlaces()),
+      block(variogram, somePlaces());
+  EXPECT_NEAR(1.5, small.variance, 1e-6); // a nugget averages out
+  EXPECT_LT(block.variance, 1.5);
+  EXPECT_GT(block.variance, 0.5);
 }
 
 TEST(KrigingSystem, GradientIsTheDerivative)
@@ -112,16 +146,17 @@ TEST(KrigingSystem, GradientIsTheDerivative)
   for (const auto& word : listWords(VariogramKind()))
     for (const int trend : {0, 1, 2}) {
       const Variogram variogram{word.value, 0.1, 1.0, 1.1};
-      const Eigen::Vector3d gradient =
-          KrigingSystem(at.offsets, variogram, trend).estimate(at.values).gradient;
+      const KrigingTarget target(variogram, somePlaces());
+      const auto estimate = [&](const Eigen::MatrixX3d& offsets) {
+        return KrigingSystem(offsets, variogram, target, trend).estimate(at.values);
+      };
+      const Eigen::Vector3d gradient = estimate(at.offsets).gradient;
       for (int axis = 0; axis < 3; ++axis) {
         Eigen::MatrixX3d ahead = at.offsets, behind = at.offsets;
         ahead.col(axis).array() -= step; // the origin moves ahead
         behind.col(axis).array() += step;
         const double slope =
-            (KrigingSystem(ahead, variogram, trend).estimate(at.values).value -
-             KrigingSystem(behind, variogram, trend).estimate(at.values).value) /
-            (2.0 * step);
+            (estimate(ahead).value - estimate(behind).value) / (2.0 * step);
         EXPECT_NEAR(gradient[axis], slope, 1e-5) << word.word << trend;
       }
     }
@@ -131,9 +166,10 @@ TEST(KrigingSystem, FewSamplesLowerTheTrend)
 {
   for (const Eigen::Index n : {1, 2, 3, 4, 9, 10}) {
     const Case at = randomCase(n, 9);
+    const Variogram variogram{VariogramKind::Exponential, 0.0, 1.0, 1.0};
+    const KrigingTarget target(variogram);
     const auto estimate =
-        KrigingSystem(at.offsets, {VariogramKind::Exponential, 0.0, 1.0, 1.0}, 2)
-            .estimate(at.values);
+        KrigingSystem(at.offsets, variogram, target, 2).estimate(at.values);
     EXPECT_TRUE(std::isfinite(estimate.value));
     EXPECT_GE(estimate.variance, 0.0);
   }

@@ -345,7 +345,7 @@ TEST(SurfaceMeasures, LeavesOutPiecesThatAreKnownNoBetterThanTheirSize)
   EXPECT_NE(std::string::npos,
             measures.getReport().warnings.back().find("1 of 2 pieces"));
   EXPECT_NE(std::string::npos,
-            measures.getReport().warnings.back().find("Try: -drop-unsure"));
+            measures.getReport().warnings.back().find("-drop-unsure leaves them out"));
   SurfaceMeasuresParameters parameters;
   parameters.drop_unsure = true;
   measures.setParameters(parameters);

@@ -192,6 +192,12 @@ TEST_F(MeasureTool, MeasuresThroughAPeriodicBox)
   EXPECT_NEAR(surfaces["mass_beyond_sum"].get<double>(),
               surfaces["mass_sample_sum"].get<double>(),
               0.03 * surfaces["mass_beyond_sum"].get<double>());
+  const auto warningsOf = [&](const std::string& sides) {
+    return runCommand("uvol_measure " + in_ + " -field rho -iso 0.4 -periodic " + sides)
+        .err;
+  };
+  EXPECT_EQ(std::string::npos, warningsOf("2,2,2").find("Samples extend"));
+  EXPECT_NE(std::string::npos, warningsOf("1,2,2").find("Samples extend over"));
   EXPECT_EQ(2, runCommand("uvol_measure " + in_ + " -iso 0.4 -periodic 2,2").exit_code);
   EXPECT_EQ(1,
             runCommand("uvol_measure " + in_ + " -field rho -iso 0.4 -periodic header")
@@ -207,6 +213,24 @@ TEST_F(MeasureTool, SumsMassesOfASnapshotThroughItsBox)
       reportOf(snapshot + " -field Density -iso 1e-9 -periodic header")["surfaces"];
   EXPECT_NEAR(98495.0, all["Masses_beyond_sum"].get<double>(), 1.0);
   EXPECT_NEAR(98495.0, all["Masses_sample_sum"].get<double>(), 500.0);
+}
+
+TEST_F(MeasureTool, EstimatesVolumesOfBlocks)
+{
+  const std::string blocks = " -field rho -iso 0.1,0.3,0.5 -block 0.1,0.1,0.1";
+  expectSuccess(blocks + " -png " + picture_ + " -plot rho_volume_mean");
+  const auto volumes = fieldOf(pcl_uvol::loadDataset(out_), "volume");
+  ASSERT_EQ(3u, volumes.size());
+  const Json report = reportOf(in_ + blocks);
+  EXPECT_EQ(8000.0, report["blocks"]["all"]);
+  EXPECT_GT(report["blocks"]["estimated"], 7500.0);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double radius = 0.9 - 0.2 * static_cast<double>(i);
+    const double truth = 4.0 / 3.0 * M_PI * std::pow(radius, 3);
+    EXPECT_NEAR(truth, volumes[i], 0.02 * truth);
+    EXPECT_NEAR(1.0 - 0.75 * radius, report["beyond"]["rho_volume_mean"][i], 0.01);
+    EXPECT_GT(report["beyond"]["volume_error"][i], 0.0);
+  }
 }
 
 TEST_F(MeasureTool, DrawsCurves)
@@ -342,6 +366,10 @@ TEST_F(MeasureTool, RefusesWrongCommandLines)
   expectFailure("-field rho -iso 0.2,0.5 -png " + picture_ + " -plot no", 2, "no");
   expectFailure("-field rho -iso 7", 1, "no isosurface");
   expectFailure("-field nothing -iso 7", 1, "nothing");
+  expectFailure("-block 1,1,1", 2, "-iso");
+  expectFailure("-field rho -iso 0.5 -block 0,1,1", 1, "positive");
+  expectFailure("-field rho -iso 0.5 -block 1,1,1 -pieces", 2, "-pieces");
+  expectFailure("-field rho -iso 0.5 -block 1e-4,1e-4,1e-4", 1, "larger blocks");
   out_ = folder_ / "out.jpg";
   expectFailure("-field rho -iso 0.5", 1, ".jpg");
 }

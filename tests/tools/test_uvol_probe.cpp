@@ -364,6 +364,8 @@ TEST_F(ProbeTool, RefusesNonsense)
   expectFailure(line + "-size 9", 2, "-size needs -plane");
   expectFailure(line + "-k 9", 2, "-k needs -model kriging");
   expectFailure(line + "-power 2", 2, "-power needs -model shepard");
+  expectFailure(line + "-block 1,1,1", 2, "-block needs -model kriging");
+  expectFailure(line + "-model kriging -block 1,-1,1", 1, "side of a block");
   expectFailure(line + "-model kriging -variogram cubic", 2, "-variogram starts with");
   expectFailure(line + "-model kriging -variogram gaussian,1,2", 2, "takes 3 numbers");
   expectFailure(line + "-model kriging -variogram gaussian,1,2,-3", 1, "range");

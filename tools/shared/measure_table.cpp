@@ -22,25 +22,6 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 constexpr const char* axis_names[] = {"x", "y", "z"};
 
-/** As many digits as the error leaves, and one more. */
-std::string
-describe(const Measure& measure)
-{
-  FactText text;
-  if (!std::isfinite(measure.value))
-    return "unknown";
-  if (measure.error > 0.0 && std::isfinite(measure.error)) {
-    const double digits =
-        std::floor(std::log10(std::abs(measure.value) / measure.error)) + 3.0;
-    text.precision(static_cast<int>(std::clamp(digits, 2.0, 12.0)));
-  }
-  text << measure.value;
-  FactText error;
-  error.precision(2);
-  error << measure.error;
-  return text.str() + " +- " + error.str();
-}
-
 std::string
 plural(std::int64_t count, const std::string& thing)
 {
@@ -115,6 +96,24 @@ describeParts(const PieceMeasures& surface, const std::string& of, Facts& facts)
 }
 
 } // namespace
+
+std::string
+describe(const Measure& measure)
+{
+  FactText text;
+  if (!std::isfinite(measure.value))
+    return "unknown";
+  if (measure.error > 0.0 && std::isfinite(measure.error)) {
+    const double digits =
+        std::floor(std::log10(std::abs(measure.value) / measure.error)) + 3.0;
+    text.precision(static_cast<int>(std::clamp(digits, 2.0, 12.0)));
+  }
+  text << measure.value;
+  FactText error;
+  error.precision(2);
+  error << measure.error;
+  return text.str() + " +- " + error.str();
+}
 
 pcl_uvol::SurfaceFigures
 measureSurface(const std::shared_ptr<const pcl_uvol::Dataset>& vertices,
@@ -299,7 +298,7 @@ describeMeasures(const pcl_uvol::SurfaceFigures& figures)
       describeParts(all, of, facts);
   }
   facts.emplace_back("surfaces", "", MeasureTable(figures.isovalues).getColumns());
-  MeasureTable pieces({});
+  MeasureTable pieces{std::vector<PieceMeasures>()};
   pieces.append(figures.pieces);
   facts.emplace_back("pieces", "", pieces.getColumns());
   return facts;

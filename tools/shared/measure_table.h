@@ -9,6 +9,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace uvol_tools {
@@ -37,6 +38,12 @@ measureSurface(const std::shared_ptr<const pcl_uvol::Dataset>& vertices,
 class MeasureTable {
 public:
   explicit MeasureTable(const std::vector<pcl_uvol::PieceMeasures>& isovalues);
+
+  /** \param columns x, y and z among them */
+  explicit MeasureTable(Fact::Members columns)
+      : columns_(std::move(columns))
+  {
+  }
 
   /** \brief Add rows for pieces. */
   void
@@ -80,6 +87,10 @@ private:
 
   Fact::Members columns_;
 };
+
+/** \brief A number and its standard error, with as many digits as this leaves. */
+std::string
+describe(const pcl_uvol::Measure& measure);
 
 /** \brief Lines for people, with fields where there are few isovalues, and the table
  * for programs: "surfaces" and "pieces". */

@@ -70,6 +70,14 @@ InterpolationOptions::declare(Options& options)
             "with kriging: an eighth of the samples from each octant")
       .rare();
   options
+      .numbers("block",
+               "dx,dy,dz",
+               3,
+               block_,
+               "with kriging: estimate the mean of a block of these sides about each "
+               "place, with its standard error")
+      .rare();
+  options
       .number("power",
               parameters_.shepard.power,
               std::numeric_limits<double>::min(),
@@ -117,6 +125,13 @@ InterpolationOptions::finish(const Options& options)
     throw UsageError("-validate-by needs -validate.");
   if (!variogram_.empty())
     parseVariogram();
+  if (!block_.empty()) {
+    if (folds_ > 0)
+      throw UsageError("-validate compares values at samples, and -block estimates the "
+                       "means of blocks.");
+    parameters_.kriging.block =
+        Eigen::Map<const Eigen::Array3d>(block_.data()).cast<float>();
+  }
   if (k_ > 0)
     parameters_.kriging.k = parameters_.shepard.k = parameters_.sph.k = k_;
   checkParameters(parameters_);
@@ -139,7 +154,7 @@ InterpolationOptions::checkModel(const Options& options) const
          InterpolationModel::Shepard,
          InterpolationModel::Sph},
         "kriging, shepard or sph");
-  for (const char* const option : {"variogram", "trend", "octants"})
+  for (const char* const option : {"variogram", "trend", "octants", "block"})
     check(option, {InterpolationModel::Kriging}, "kriging");
   check("power", {InterpolationModel::Shepard}, "shepard");
   for (const char* const option : {"kernel", "smoothing-length", "mass"})

@@ -88,6 +88,7 @@ private:
   pcl_uvol::InterpolationParameters parameters_;
   ScaleOption scale_;
   std::string fields_, variogram_, validate_by_ = "random";
+  std::vector<double> block_;
   std::uint64_t k_ = 0, folds_ = 0;
 };
 

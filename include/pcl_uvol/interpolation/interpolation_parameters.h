@@ -105,6 +105,9 @@ struct PCL_UVOL_EXPORTS KrigingParameters {
   bool octants = false;
   /** Degree of the polynomial that the mean is: 0 (ordinary kriging), 1 or 2. */
   int trend = 0;
+  /** Sides of the block about each query whose mean is estimated, along the axes of the
+   * coordinates, >= 0: block kriging. Zeros (default): the value at the query. */
+  Eigen::Array3f block{0.0f, 0.0f, 0.0f};
 
   /** \return The members under the names that JSON has for them. */
   static auto
@@ -119,7 +122,8 @@ struct PCL_UVOL_EXPORTS KrigingParameters {
                            Member{"rotation", &Own::rotation},
                            Member{"k", &Own::k},
                            Member{"octants", &Own::octants},
-                           Member{"trend", &Own::trend});
+                           Member{"trend", &Own::trend},
+                           Member{"block", &Own::block});
   }
 };
 

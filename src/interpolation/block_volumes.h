@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How much of a volume is beyond a value, from block kriging: tonnage and grade above a
+// cutoff, without a surface.
+#pragma once
+
+#include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/stage.h>
+#include <pcl_uvol/isosurface/isosurface_extraction.h>
+
+#include <Eigen/Core>
+#include <pcl/types.h>
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace pcl_uvol::detail {
+
+/** \brief What is beyond one isovalue. */
+struct BlockVolume {
+  double isovalue;
+  double volume, volume_error;     ///< in units of length, cubed, with standard errors
+  double mean, mean_error;         ///< of the field there; NaN without any volume
+  double integral, integral_error; ///< volume times mean
+  Eigen::Vector3d centroid;        ///< NaN without any volume
+};
+
+/** \brief Blocks over the box of the samples, and what is beyond isovalues in them. */
+struct BlockVolumes {
+  std::array<std::size_t, 3> blocks{}; ///< along each axis
+  std::size_t known = 0;               ///< those that the samples tell of
+  std::vector<BlockVolume> isovalues;
+};
+
+/** \brief Estimate what is beyond isovalues.
+ *
+ * The mean of every block is kriged from 32 samples of all octants. It is taken as
+ * normal about its estimate with the standard deviation of block kriging, so a block
+ * counts with its probability to be beyond the isovalue (Chiles and Delfiner,
+ * Geostatistics, section 6.2): volumes never rise with a cutoff, and are never
+ * negative. Blocks outside of the data, and those whose estimate is no surer than the
+ * mean of all samples, are left out. Errors of blocks are taken as correlated as values
+ * of the field are, which is more than they are: standard errors are upper estimates.
+ * The error of the variogram is not among them.
+ *
+ * \param parameters field, isovalues, outside, and the scale of the metric
+ *
+ * \param rotation strike, dip and plunge of the metric's axes
+ *
+ * \param sides of the blocks, in units of length, > 0
+ *
+ * \throws InvalidArgument for sides that are not positive or make more than 2^24
+ * blocks, where the samples tell of no block, and as FieldInterpolation */
+PCL_UVOL_EXPORTS BlockVolumes
+estimateBlockVolumes(const CloudView& samples,
+                     const IsosurfaceParameters& parameters,
+                     const Eigen::Array3d& rotation,
+                     const Eigen::Array3f& sides,
+                     unsigned threads,
+                     Report& report);
+
+} // namespace pcl_uvol::detail
