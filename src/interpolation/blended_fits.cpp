@@ -236,6 +236,7 @@ private:
     sum_.clear();
     sq_reach_ = 0.0;
     is_even_ = true;
+    values_.clear();
     add(query, candidates_, 1.0, {0.0, 0.0, 0.0}, is_inner, is_reduced);
     const double weight = sum_.getWeight();
     const bool is_thin = weight < thin_weight;
@@ -253,7 +254,7 @@ private:
       return;
     is_even_ = is_even_ && !is_thin && !is_reduced;
     for (std::size_t f = 0; f < sampled_.fields; ++f)
-      if (isUnsure(f))
+      if (isUnsure(f) || (!is_even_ && isBeyondNeighbors(i, f)))
         unsure_.push_back(i * sampled_.fields + f);
   }
 
@@ -297,6 +298,7 @@ private:
       }
       sum_.add(part);
       sq_reach_ += part.weight * fits->sq_reach[place];
+      values_.push_back(part.polynomial.coefficients);
       is_even_ = is_even_ && !metric;
       is_inner = is_inner && fits->is_inner[place];
       is_reduced = is_reduced || fits->is_reduced[place];
@@ -365,6 +367,7 @@ private:
       along /= fits.radius[place];
     sum_.addStraight(part, farthest_offset);
     sq_reach_ = fits.sq_reach[place];
+    values_ = {part.polynomial.coefficients};
     is_reduced = is_reduced || fits.is_reduced[place];
   }
 
@@ -383,6 +386,24 @@ private:
     const double known = difference - variogram.nugget;
     return error * error >
            (is_even_ || !(known > 0.0) ? difference : sq_uneven_part * known);
+  }
+
+  /** Whether a value is farther from those of the samples around it than its error: a
+   * fit that swings between lines of samples, where nothing holds it. */
+  bool
+  isBeyondNeighbors(std::size_t query, std::size_t field) const
+  {
+    const double value = estimates_.values[query * sampled_.fields + field],
+                 error = sum_.computeError(field);
+    if (!std::isfinite(error) || values_.empty())
+      return false;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const auto* const coefficients : values_) {
+      const double at_sample = coefficients[field * cubic_terms];
+      low = std::min(low, at_sample);
+      high = std::max(high, at_sample);
+    }
+    return value < low - error || value > high + error;
   }
 
   /** Replace the values of fits that are unsure by those of kriging. */
@@ -439,8 +460,9 @@ private:
   PolynomialSum sum_;
   std::vector<std::uint32_t> buckets_;
   Candidates candidates_, wide_;
-  std::vector<std::uint32_t> found_; // by kernels
-  std::vector<double> parts_;        ///< of the balls that are held
+  std::vector<std::uint32_t> found_;  // by kernels
+  std::vector<double> parts_;         ///< of the balls that are held
+  std::vector<const double*> values_; ///< coefficients of fits, first those at samples
   std::optional<SupportFinder> support_;
   double sq_reach_ = 0.0; ///< weighted sum of the squared radii of the balls
   bool is_even_ = true;   ///< samples are spread evenly, and the query lies among them

@@ -21,8 +21,9 @@ namespace pcl_uvol::detail {
  * balls fade in. Beyond these the nearest fit is continued along a straight line. The
  * standard error combines those of the fits and the spread of their values.
  *
- * Kriging answers instead where that error is too large: between lines and layers of
- * samples a small part of what values differ by over a ball. */
+ * Kriging answers instead where that error is too large, and where a value is farther
+ * from those of the samples around it than its error: between lines and layers of
+ * samples, where that may be a small part of what values differ by over a ball. */
 class BlendedFits : public FieldModel {
 public:
   /** \param frames,names of the fields, see KrigingModel */
