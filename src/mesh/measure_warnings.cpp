@@ -53,12 +53,20 @@ warnOfVague(const SurfaceFigures& figures, Report& report)
         "where the surface may be.");
 }
 
+/** Whether a closed surface has no volume and encloses no sample. */
+bool
+hasNoVolume(const PieceMeasures& all)
+{
+  return all.rims == 0 && all.volume.value == 0.0 && all.triangles > 0 &&
+         all.samples <= 0;
+}
+
 /** Compares the samples inside with those beyond the isovalue. */
 void
 warnOfMissedSamples(const SurfaceFigures& figures, Report& report)
 {
   for (const PieceMeasures& all : figures.isovalues) {
-    if (all.rims > 0 || all.triangles == 0 || !all.samples_beyond)
+    if (all.rims > 0 || all.triangles == 0 || !all.samples_beyond || hasNoVolume(all))
       continue;
     const auto beyond = static_cast<double>(*all.samples_beyond);
     if (std::abs(static_cast<double>(all.samples) - beyond) <= many_missed * beyond)
@@ -70,14 +78,6 @@ warnOfMissedSamples(const SurfaceFigures& figures, Report& report)
         " have values beyond the isovalue: the mesh is coarser than clumps of few "
         "samples, or leaves them out. For masses, take the sum beyond the isovalue.");
   }
-}
-
-/** Whether a closed surface has no volume and encloses no sample. */
-bool
-hasNoVolume(const PieceMeasures& all)
-{
-  return all.rims == 0 && all.volume.value == 0.0 && all.triangles > 0 &&
-         all.samples <= 0;
 }
 
 } // namespace

@@ -153,9 +153,9 @@ warnOfCaps(const SurfaceTriangles& surface,
     return;
   const long percent = std::lround(100.0 * surface.cap_part);
   report.warnings.push_back(
-      "Of the mesh at " + describeNumbers({isovalue})[0] + " " +
+      "The mesh at " + describeNumbers({isovalue})[0] + " has " +
       std::to_string(percent) +
-      " % of the area are caps at the border of the samples: if values are " +
+      " % of its area in caps at the border of the samples: if values are " +
       (outside == Outside::Lower ? "higher" : "lower") +
       " outside of the surface you want, ask for the other outside.");
 }

@@ -60,8 +60,8 @@ parseMap(const std::string& text)
       !pcl_uvol::parseNumber(parts[1], map.latitude) ||
       !(std::abs(map.longitude) <= 360.0) || !(std::abs(map.latitude) < 90.0))
     throw UsageError(
-        "-map takes auto, or longitude and latitude in degrees, and m or km "
-        "behind them, as in -map -71.5,41,km, not " +
+        "-map takes auto, or longitude (-360 to 360) and latitude (between -90 and 90) "
+        "in degrees, and m or km behind them, as in -map -71.5,41,km, not " +
         pcl_uvol::quoteText(text) + ".");
   return map;
 }
