@@ -387,13 +387,15 @@ measureBlocks(const Options& options, Arguments& arguments, Report& report)
   pipeline.setParameters(arguments.parameters);
   pipeline.setNumberOfThreads(options.threads());
   const pcl_uvol::IsosurfaceParameters parameters = pipeline.resolveParameters();
+  pcl_uvol::detail::BlockParameters blocks;
+  blocks.field = parameters.field;
+  blocks.isovalues = parameters.isovalues;
+  blocks.is_lower_outside = parameters.outside == pcl_uvol::Outside::Lower;
+  blocks.sides = Eigen::Map<const Eigen::Array3d>(arguments.block.data()).cast<float>();
+  blocks.scale = parameters.scale;
+  blocks.rotation = arguments.parameters.rotation;
   auto found = pcl_uvol::detail::estimateBlockVolumes(
-      pcl_uvol::viewOf(samples->cloud),
-      parameters,
-      arguments.parameters.rotation,
-      Eigen::Map<const Eigen::Array3d>(arguments.block.data()).cast<float>(),
-      options.threads(),
-      report);
+      pcl_uvol::viewOf(samples->cloud), blocks, options.threads(), report);
   for (pcl_uvol::detail::BlockVolume& beyond : found.isovalues)
     beyond.centroid += Eigen::Map<const Eigen::Vector3d>(samples->origin.data());
   return {uvol_tools::makeTable(found, parameters.field),

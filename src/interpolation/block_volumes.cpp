@@ -195,12 +195,11 @@ sumUp(const std::vector<KnownBlock>& blocks,
 
 BlockVolumes
 estimateBlockVolumes(const CloudView& samples,
-                     const IsosurfaceParameters& parameters,
-                     const Eigen::Array3d& rotation,
-                     const Eigen::Array3f& sides,
+                     const BlockParameters& parameters,
                      unsigned threads,
                      Report& report)
 {
+  const Eigen::Array3f& sides = parameters.sides;
   if (!(sides > 0.0f).all() || !sides.allFinite())
     throw InvalidArgument("The sides of blocks must be finite and positive.");
   const BlockGrid grid(samples, sides);
@@ -211,14 +210,14 @@ estimateBlockVolumes(const CloudView& samples,
   kriging.kriging.block = sides;
   kriging.gradients = false;
   kriging.scale = parameters.scale;
-  kriging.rotation = rotation;
+  kriging.rotation = parameters.rotation;
   pcl::Indices every(samples.count);
   std::iota(every.begin(), every.end(), 0);
   const FieldInterpolator field(samples, every, kriging, threads, report);
   const Variogram variogram = field.findVariogram(0)->model;
   const Eigen::Matrix3d stretch =
       parameters.scale.matrix().cast<double>().asDiagonal() *
-      StretchAxes(rotation).getRows();
+      StretchAxes(parameters.rotation).getRows();
   const double prior =
       KrigingTarget(variogram, KrigingTarget::divideBlock(sides, stretch)).variance;
 
@@ -250,7 +249,7 @@ estimateBlockVolumes(const CloudView& samples,
     found.isovalues.push_back(sumUp(blocks,
                                     errors,
                                     isovalue,
-                                    parameters.outside == Outside::Lower ? 1.0 : -1.0,
+                                    parameters.is_lower_outside ? 1.0 : -1.0,
                                     grid.sides.prod()));
   return found;
 }

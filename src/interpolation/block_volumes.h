@@ -6,16 +6,27 @@
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/stage.h>
-#include <pcl_uvol/isosurface/isosurface_extraction.h>
 
 #include <Eigen/Core>
-#include <pcl/types.h>
 
 #include <array>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 namespace pcl_uvol::detail {
+
+/** \brief What is asked of blocks. */
+struct BlockParameters {
+  std::string field;
+  std::vector<double> isovalues;
+  bool is_lower_outside = true; ///< false: what is below an isovalue is beyond it
+  Eigen::Array3f sides{0.0f, 0.0f, 0.0f}; ///< of the blocks, in units of length, > 0
+  /** Of the metric, as those of InterpolationParameters. @{ */
+  Eigen::Array3f scale{1.0f, 1.0f, 1.0f};
+  Eigen::Array3d rotation{0.0, 0.0, 0.0};
+  /** @} */
+};
 
 /** \brief What is beyond one isovalue. */
 struct BlockVolume {
@@ -44,19 +55,11 @@ struct BlockVolumes {
  * of the field are, which is more than they are: standard errors are upper estimates.
  * The error of the variogram is not among them.
  *
- * \param parameters field, isovalues, outside, and the scale of the metric
- *
- * \param rotation strike, dip and plunge of the metric's axes
- *
- * \param sides of the blocks, in units of length, > 0
- *
  * \throws InvalidArgument for sides that are not positive or make more than 2^24
  * blocks, where the samples tell of no block, and as FieldInterpolation */
 PCL_UVOL_EXPORTS BlockVolumes
 estimateBlockVolumes(const CloudView& samples,
-                     const IsosurfaceParameters& parameters,
-                     const Eigen::Array3d& rotation,
-                     const Eigen::Array3f& sides,
+                     const BlockParameters& parameters,
                      unsigned threads,
                      Report& report);
 

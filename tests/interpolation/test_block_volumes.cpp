@@ -47,22 +47,18 @@ BlockVolumes
 estimate(const pcl::PointCloud<pcl::PointXYZI>& samples,
          const std::vector<double>& isovalues,
          float side = 0.1f,
-         Outside outside = Outside::Lower,
+         bool is_lower_outside = true,
          unsigned threads = 2)
 {
   pcl::PCLPointCloud2 cloud;
   pcl::toPCLPointCloud2(samples, cloud);
-  IsosurfaceParameters parameters;
+  BlockParameters parameters;
   parameters.field = "intensity";
   parameters.isovalues = isovalues;
-  parameters.outside = outside;
+  parameters.is_lower_outside = is_lower_outside;
+  parameters.sides.fill(side);
   Report report;
-  return estimateBlockVolumes(viewOf(cloud),
-                              parameters,
-                              Eigen::Array3d::Zero(),
-                              Eigen::Array3f::Constant(side),
-                              threads,
-                              report);
+  return estimateBlockVolumes(viewOf(cloud), parameters, threads, report);
 }
 
 double
@@ -150,7 +146,7 @@ TEST(BlockVolumes, OfBothSidesAddUp)
 {
   const auto samples = makeSamples(waves, 1000, 1);
   const auto above = estimate(samples, {0.3}),
-             below = estimate(samples, {0.3}, 0.1f, Outside::Higher);
+             below = estimate(samples, {0.3}, 0.1f, false);
   const double all = 1e-3 * static_cast<double>(above.known);
   EXPECT_NEAR(all, above.isovalues[0].volume + below.isovalues[0].volume, 1e-6);
   EXPECT_NEAR(above.isovalues[0].volume_error, below.isovalues[0].volume_error, 1e-9);
@@ -163,7 +159,7 @@ TEST(BlockVolumes, TheSameForAnyOrderUnitShiftAndThreads)
   const auto samples = makeSamples(waves, 600, 1);
   const auto found = estimate(samples, {0.3});
   const BlockVolume& all = found.isovalues[0];
-  const auto serial = estimate(samples, {0.3}, 0.1f, Outside::Lower, 1);
+  const auto serial = estimate(samples, {0.3}, 0.1f, true, 1);
   EXPECT_EQ(all.volume, serial.isovalues[0].volume);
   EXPECT_EQ(all.integral_error, serial.isovalues[0].integral_error);
   auto turned = samples;
