@@ -209,7 +209,7 @@ loadSurface(const Options& options, const Arguments& arguments, Report& report)
 std::shared_ptr<Dataset>
 loadSamples(const Options& options, Arguments& arguments, Report& report)
 {
-  const auto samples =
+  auto samples =
       std::make_shared<Dataset>(uvol_tools::loadPoints(arguments.input,
                                                        report,
                                                        arguments.makeLoadOptions(),
