@@ -388,8 +388,10 @@ private:
            (is_even_ || !(known > 0.0) ? difference : sq_uneven_part * known);
   }
 
-  /** Whether a value is farther from those of the samples around it than its error: a
-   * fit that swings between lines of samples, where nothing holds it. */
+  /** Whether a value is far from those of the samples around it: a fit that swings
+   * between lines of samples, where nothing holds it. The room is half of their range
+   * besides its error: a linear field, which fits reproduce, changes by so much over
+   * one more radius of the ball that holds them. */
   bool
   isBeyondNeighbors(std::size_t query, std::size_t field) const
   {
@@ -403,7 +405,8 @@ private:
       low = std::min(low, at_sample);
       high = std::max(high, at_sample);
     }
-    return value < low - error || value > high + error;
+    const double room = 0.5 * (high - low) + error;
+    return value < low - room || value > high + room;
   }
 
   /** Replace the values of fits that are unsure by those of kriging. */

@@ -22,8 +22,9 @@ namespace pcl_uvol::detail {
  * standard error combines those of the fits and the spread of their values.
  *
  * Kriging answers instead where that error is too large, and where a value is farther
- * from those of the samples around it than its error: between lines and layers of
- * samples, where that may be a small part of what values differ by over a ball. */
+ * from those of the samples around it than its error and half of their range: between
+ * lines and layers of samples, where that may be a small part of what values differ by
+ * over a ball. */
 class BlendedFits : public FieldModel {
 public:
   /** \param frames,names of the fields, see KrigingModel */
