@@ -251,9 +251,8 @@ extractSurface(const Options& options,
       report.getCount("isopoints"))
     report.warnings.push_back(
         "Most of the surface lies between lines of samples or beside gaps: its area, "
-        "its "
-        "volume and what is inside are guesses. Try: -block dx,dy,dz estimates volumes "
-        "and means beyond a value without a surface.");
+        "its volume and what is inside are not constrained by the samples. Try: -block "
+        "dx,dy,dz estimates volumes and means beyond a value without a surface.");
   if (result.triangles.empty())
     throw pcl_uvol::InvalidArgument(
         "There is no isosurface to measure: " + result.field +

@@ -241,9 +241,9 @@ estimateBlockVolumes(const CloudView& samples,
   }
   found.known = blocks.size();
   if (blocks.empty())
-    throw InvalidArgument(
-        "No block can be estimated better than by the mean of all "
-        "samples: values are not alike at the distances between them.");
+    throw InvalidArgument("No block can be estimated better than by the mean of all "
+                          "samples: all are outside of the data, or values are not "
+                          "alike at the distances between samples.");
   const ErrorSum errors(blocks, variogram);
   for (const double isovalue : parameters.isovalues)
     found.isovalues.push_back(sumUp(blocks,
