@@ -4,6 +4,7 @@
 #include "mesh/disjoint_sets.h"
 #include "mesh/point_fans.h"
 #include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/common/point_types.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,12 +23,30 @@ constexpr double disagreement = 0.2;
 constexpr double most_alone = 0.05, most_contrary = 0.05;
 /** @} */
 
+/** Share of the area: where more is in gaps, the area is not known to a third. */
+constexpr double most_in_gaps = 1.0 / 3.0;
+
 /** Corners and isovalues of points, in the order of samples. */
 struct SortedPoints {
   SampleSet::ConstPtr samples;
   std::vector<SurfaceCorner> corners;
   std::vector<double> isovalues;
+  std::vector<bool> is_in_gap; ///< by their support, if they have it
+
+  bool
+  isInGap(std::uint32_t point) const
+  {
+    return !is_in_gap.empty() && is_in_gap[point];
+  }
 };
+
+/** Whether an isopoint lies in a gap of the samples or at its rim. */
+bool
+isInGap(double support)
+{
+  return support == static_cast<double>(IsoSupport::Bridged) ||
+         support == static_cast<double>(IsoSupport::Rim);
+}
 
 SortedPoints
 sortPoints(const CloudView& points,
@@ -49,12 +68,15 @@ sortPoints(const CloudView& points,
                                     Position{{1.0f, 1.0f, 1.0f}},
                                     threads,
                                     report);
-  const std::optional<ScalarField> isovalue = findScalar(points, "isovalue");
+  const std::optional<ScalarField> isovalue = findScalar(points, "isovalue"),
+                                   support = findScalar(points, "support");
   for (std::size_t i = 0; i < sorted.samples->size(); ++i) {
     const std::uint32_t source = sorted.samples->getInputIndex(i);
     sorted.corners.push_back(corners[source]);
     if (isovalue)
       sorted.isovalues.push_back(isovalue->read(points.point(source)));
+    if (support)
+      sorted.is_in_gap.push_back(isInGap(support->read(points.point(source))));
   }
   return sorted;
 }
@@ -124,15 +146,34 @@ public:
           add(i, others, is_agreed);
       }
     clearNegativeShares();
-    // Where the surface ends is known no better than by a point.
+    // Where the surface ends is known no better than by a point, nor whether it goes
+    // on in gaps of the samples.
     for (std::uint32_t i = 0; i < points_.corners.size(); ++i)
-      if (fans_.isOnRim(i) && !fans_.getFan(i).empty())
+      if ((fans_.isOnRim(i) || points_.isInGap(i)) && !fans_.getFan(i).empty())
         surface.integrals[pieceOf(i)].area_error += surface.shares[sourceOf(i)];
     for (std::size_t piece = 0; piece < doubtful_.size(); ++piece) {
       SurfaceIntegrals& all = surface.integrals[piece];
       all.area_error += disagreement * std::sqrt(doubtful_[piece].area_error);
       all.volume_error += disagreement * std::sqrt(doubtful_[piece].volume_error);
     }
+  }
+
+  void
+  warnOfGaps(Report& report) const
+  {
+    double area = 0.0, in_gaps = 0.0;
+    for (std::uint32_t i = 0; i < points_.corners.size(); ++i) {
+      const double share = surface.shares[sourceOf(i)];
+      area += share;
+      in_gaps += points_.isInGap(i) ? share : 0.0;
+    }
+    if (in_gaps > most_in_gaps * area)
+      report.warnings.push_back(
+          std::to_string(std::lround(100.0 * in_gaps / area)) +
+          " % of the area lies in gaps between the samples or at their border, where "
+          "the samples do not tell whether the surface goes on. Shells and plates of a "
+          "few layers of samples look so: if the file has cells, contour the cells "
+          "instead.");
   }
 
   MeasuredSurface surface;
@@ -242,6 +283,7 @@ measurePoints(const CloudView& points, unsigned threads, Report& report)
   made.surface.corners = std::move(*corners);
   findBounds(made.surface);
   made.integrate();
+  made.warnOfGaps(report);
   return std::move(made.surface);
 }
 

@@ -2,6 +2,7 @@
 #include "pipeline/guessed_isopoints.h"
 
 #include "pipeline/known_isopoints.h"
+#include "pipeline/thin_parts.h"
 
 #include <cstddef>
 #include <string>
@@ -39,17 +40,21 @@ tellPart(std::size_t part, std::size_t all, const std::string& text)
 
 SurfaceGrounds
 findGrounds(const pcl::PointCloud<PointIso>& isopoints,
+            const IsoEdges& edges,
             const IsopointChoice& choice,
             const std::vector<std::uint8_t>& is_on_cap,
             const PeriodicBox& box)
 {
   SurfaceGrounds grounds;
+  const std::vector<std::uint8_t> is_thin = findThinParts(isopoints, edges);
   for (std::size_t i = 0; i < isopoints.size(); ++i) {
     const PointIso& point = isopoints[i];
     const bool is_cap = !is_on_cap.empty() && is_on_cap[i] != 0;
     if (!is_cap && point.support != static_cast<std::uint8_t>(IsoSupport::Unknown) &&
-        (!isPeriodic(box.sides) || box.holds(point.data)))
+        (!isPeriodic(box.sides) || box.holds(point.data))) {
       add(point, choice.method[i], choice.orientation[i], grounds);
+      grounds.thin += is_thin[i];
+    }
   }
   return grounds;
 }
@@ -68,9 +73,9 @@ SurfaceGrounds
 addTogether(const SurfaceGrounds& own, Communicator& communicator)
 {
   std::vector<std::uint64_t> counts{
-      own.known, own.at_border, own.beside_gaps, own.guessed};
+      own.known, own.at_border, own.beside_gaps, own.guessed, own.thin};
   communicator.allReduce(counts);
-  return {counts[0], counts[1], counts[2], counts[3]};
+  return {counts[0], counts[1], counts[2], counts[3], counts[4]};
 }
 
 std::string
@@ -111,6 +116,20 @@ tellSmoothedGuesses(const Report& evolution, const SamplingSummary& sampling)
                      sampling,
                      " The isosurface through the same samples can be tested "
                      "(uvol_isosurface -validate), and its gaps filled (-fill-gaps).");
+}
+
+std::string
+tellThinParts(const SurfaceGrounds& grounds)
+{
+  if (4 * grounds.thin <= grounds.known)
+    return "";
+  return tellPart(
+      grounds.thin,
+      grounds.known,
+      " % of the isopoints are on parts or gaps that are thinner than two spacings: "
+      "they are one layer of samples, which cannot tell the two sides apart, or noise. "
+      "Areas and volumes there say little. If the file has cells, contour the cells "
+      "instead; if the values are noisy, smooth them.");
 }
 
 std::string

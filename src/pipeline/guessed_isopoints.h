@@ -26,14 +26,18 @@ struct SurfaceGrounds {
    * their border. */
   std::size_t beside_gaps = 0;
   std::size_t guessed = 0; ///< bridged otherwise, or oriented across a line of samples
+  std::size_t thin = 0;    ///< of all of these: see findThinParts()
 };
 
 /** \brief What isopoints rest on.
+ * \param edges of isopoints, with indices into the samples
+ *
  * \param is_on_cap 1 for each vertex that closes a mesh, which rests on nothing; empty:
  * there are none
  * \param box outside of which isopoints are images of others */
 SurfaceGrounds
 findGrounds(const pcl::PointCloud<PointIso>& isopoints,
+            const IsoEdges& edges,
             const IsopointChoice& choice,
             const std::vector<std::uint8_t>& is_on_cap,
             const PeriodicBox& box);
@@ -61,6 +65,11 @@ tellGuesses(const SurfaceGrounds& grounds,
  * LevelSetEvolution::setExamined */
 PCL_UVOL_EXPORTS std::string
 tellSmoothedGuesses(const Report& evolution, const SamplingSummary& sampling);
+
+/** \brief A sentence where many isopoints are on parts that are one layer of samples
+ * thick; else empty. */
+std::string
+tellThinParts(const SurfaceGrounds& grounds);
 
 /** \brief The same of the border of a cluster, which lies somewhere between its samples
  * and the others. */

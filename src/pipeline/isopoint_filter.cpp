@@ -134,12 +134,13 @@ warnOfGuesses(const SurfaceGrounds& grounds,
   const std::string test = parameters.validation.folds > 0
                                ? ""
                                : " A hold-out test tells how good it is (-validate).";
-  const std::string warning =
-      role == SurfaceRole::ClusterBorder
-          ? tellGuessedBorder(grounds)
-          : tellGuesses(grounds, sampling, test + adviseRemedies(parameters));
-  if (!warning.empty())
-    report.warnings.push_back(warning);
+  for (const std::string& warning :
+       {role == SurfaceRole::ClusterBorder
+            ? tellGuessedBorder(grounds)
+            : tellGuesses(grounds, sampling, test + adviseRemedies(parameters)),
+        tellThinParts(grounds)})
+    if (!warning.empty())
+      report.warnings.push_back(warning);
 }
 
 void

@@ -222,6 +222,7 @@ finish(const Dataset& samples,
   const SurfaceGrounds own = examined.known > 0
                                  ? examined
                                  : findGrounds(isopoints,
+                                               edges,
                                                choice,
                                                found.is_on_cap,
                                                PeriodicBox{{}, sidesOf(parameters)});

@@ -183,7 +183,8 @@ struct PCL_UVOL_EXPORTS SurfaceFigures {
  * use sums_beyond, which does not depend on the surface.
  *
  * Where a surface ends, or meets a cap, what its vertices may be off by along it counts
- * as an error of the area.
+ * as an error of the area. Of points at the end of a surface, and of isopoints in gaps
+ * of the samples or at their border (see IsoSupport), all of the area is its error.
  *
  * A field of the samples is integrated over the space inside as the sum over the
  * samples there of value times volume of the kd-tree's cell (thesis 2.2.1); where cells
