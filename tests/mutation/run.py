@@ -10,8 +10,10 @@ Works on a copy of the tree in build/mutation, which is kept for the next time. 
 no longer fits the sources (exit code 2). Exit code 1 if less than 90 % of the changes are noticed."""
 
 import argparse
+import functools
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -27,15 +29,16 @@ TIME_FACTOR, TIME_ROOM = 10.0, 20.0
 
 
 class Mutation:
-    """Blocks of the list: "# name", "file: test test tool", "- old line", "+ new line"; tools are what the tests run."""
+    """Blocks of the list: "# name", "file: test test tool", "- old line", "+ new line"; a test is the name of its source,
+    and tools are what the tests run."""
 
     def __init__(self, block):
         if len(block) != 4 or [line[0] for line in block[0::2]] != ["#", "-"] or block[3][0] != "+":
             fail("not a mutation:\n" + "\n".join(block))
         self.name = block[0][1:].strip()
         self.file, tests = block[1].split(":")
-        self.targets = tests.split()
-        self.tests = [target for target in self.targets if target.startswith("test_")]
+        self.tests = [name for name in tests.split() if name.startswith("test_")]
+        self.targets = {executable_of(name)[0] if name in self.tests else name for name in tests.split()}
         self.old, self.new = block[2][1:].strip(), block[3][1:].strip()
 
     def mutated(self, text):
@@ -50,6 +53,18 @@ class Mutation:
 
 def fail(message):
     sys.exit(f"{pathlib.Path(__file__).name}: {message}")
+
+
+@functools.cache
+def executable_of(test):
+    """The executable of a source of tests, and the filter of its suites, as tests/CMakeLists.txt has them."""
+    sources = list((ROOT / "tests").rglob(test + ".cpp"))
+    if len(sources) != 1:
+        fail(f"there is not one source of tests of the name {test}.")
+    text = sources[0].read_text()
+    module = "kernels" if '#include "src/' in text else sources[0].relative_to(ROOT / "tests").parts[0]
+    suites = sorted(set(re.findall(r"^(?:TEST|TEST_F|TEST_P|TYPED_TEST)\((\w+),", text, re.MULTILINE)))
+    return "test_" + module, ":".join(f"{suite}.*:{suite}/*:*/{suite}.*" for suite in suites)
 
 
 def read_list(words):
@@ -85,14 +100,15 @@ def copy_tree():
 
 def build(targets, threads):
     """The log of a build that failed, else nothing."""
-    run = subprocess.run(["cmake", "--build", str(BUILD), "-j", str(threads), "--target", *targets],
+    run = subprocess.run(["cmake", "--build", str(BUILD), "-j", str(threads), "--target", *sorted(targets)],
                          capture_output=True, text=True)
     return run.stdout + run.stderr if run.returncode != 0 else ""
 
 
 def passes(test, limit):
     """Without what is labelled long: a mutation is to be noticed by the tests that everybody runs."""
-    command = [str(BUILD / "bin" / test), "--gtest_filter=-*_long*", "--gtest_fail_fast", "--gtest_brief=1"]
+    executable, suites = executable_of(test)
+    command = [str(BUILD / "bin" / executable), f"--gtest_filter={suites}-*_long*", "--gtest_fail_fast", "--gtest_brief=1"]
     try:
         run = subprocess.run(command, cwd=COPY, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=limit)
     except subprocess.TimeoutExpired:
@@ -102,7 +118,7 @@ def passes(test, limit):
 
 def check_unmutated(mutations, threads):
     """Seconds that every test takes."""
-    log = build(sorted({target for m in mutations for target in m.targets}), threads)
+    log = build({target for m in mutations for target in m.targets}, threads)
     if log:
         fail("the tree does not build:\n" + log)
     seconds = {}
