@@ -33,6 +33,7 @@ pcl_uvol_part(BENCHMARKS "Build the benchmarks (Google Benchmark, CGAL with TBB,
 pcl_uvol_part(FUZZERS "Build the fuzzers (clang): tools/fuzz.sh" OFF TESTS)
 pcl_uvol_part(PARAVIEW_PLUGIN "Build the plugin for ParaView (ParaView_DIR: its SDK)" OFF GL)
 option(PCL_UVOL_PRECOMPILE_HEADERS "Read the headers of PCL, Eigen and GoogleTest once for each library" ${PROJECT_IS_TOP_LEVEL})
+option(PCL_UVOL_UNITY "Compile the sources of a folder together; OFF for editors and clang-tidy, which know single ones" ${PROJECT_IS_TOP_LEVEL})
 option(PCL_UVOL_INSTALL "Install the libraries, their headers and the package" ${PROJECT_IS_TOP_LEVEL})
 option(PCL_UVOL_WARNINGS_AS_ERRORS "Treat compiler warnings as errors" OFF)
 if(PCL_UVOL_BUILD_PARAVIEW_PLUGIN AND NOT PCL_UVOL_INSTALL)

@@ -5,8 +5,9 @@ add_library(pcl_uvol_determinism INTERFACE)
 target_compile_options(pcl_uvol_determinism INTERFACE -ffp-contract=off)
 
 add_library(pcl_uvol_warnings INTERFACE)
+# Of sources that are compiled together, one may have a local name that is a constant of another.
 target_compile_options(pcl_uvol_warnings INTERFACE
-  -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual
+  -Wall -Wextra $<$<NOT:$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>>:-Wshadow> -Wnon-virtual-dtor -Woverloaded-virtual
   $<$<BOOL:${PCL_UVOL_WARNINGS_AS_ERRORS}>:-Werror>)
 
 # A reader that writes out of bounds, which no test has met, ends in an error instead of somebody else's code. In core a whole
@@ -49,6 +50,29 @@ function(pcl_uvol_reuse_headers target name)
   endif()
 endfunction()
 
+# Sources of one folder are compiled a dozen at a time: each source would read the same headers and make the same
+# functions of templates again. Names in unnamed namespaces are therefore unique within a folder. To be called in the
+# folder of the target, once it has its sources; those with options of their own stay alone.
+function(pcl_uvol_unite target)
+  if(NOT PCL_UVOL_UNITY)
+    return()
+  endif()
+  get_target_property(sources ${target} SOURCES)
+  list(FILTER sources INCLUDE REGEX "\\.cpp$")
+  foreach(source IN LISTS sources)
+    cmake_path(GET source PARENT_PATH folder)
+    string(MAKE_C_IDENTIFIER "count_${folder}" count)
+    if(NOT DEFINED ${count})
+      set(${count} 0)
+    endif()
+    math(EXPR part "${${count}} / 12")
+    math(EXPR ${count} "${${count}} + 1")
+    cmake_path(GET folder FILENAME name)
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${name}_${part})
+  endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+endfunction()
+
 # One copy of the vector kernels per instruction set, and the objects of all of them (src/CMakeLists.txt).
 set(pcl_uvol_simd_levels baseline avx2 avx512)
 list(TRANSFORM pcl_uvol_simd_levels REPLACE "(.+)" "$<TARGET_OBJECTS:pcl_uvol_kernels_\\1>"
@@ -71,6 +95,9 @@ function(pcl_uvol_add_library name)
     list(FILTER sources EXCLUDE REGEX "_kernel\\.cpp$")
   endforeach()
   add_library(pcl_uvol_${name} SHARED ${sources})
+  if(NOT name STREQUAL io)
+  pcl_uvol_unite(pcl_uvol_${name})
+  endif()
   add_library(pcl_uvol::${name} ALIAS pcl_uvol_${name})
   set_target_properties(pcl_uvol_${name} PROPERTIES
     EXPORT_NAME ${name} VERSION ${PROJECT_VERSION}

@@ -52,7 +52,7 @@ export -f tidy_file
 check_tidy() {
   # What g++ has precompiled clang-tidy cannot read, and headers that a source forgets to include are seen without.
   bash tools/build.sh help clang-tidy libomp-dev >/dev/null &&
-    cmake --preset release -B build/tidy -DPCL_UVOL_PRECOMPILE_HEADERS=OFF >/dev/null || return
+    cmake --preset release -B build/tidy -DPCL_UVOL_PRECOMPILE_HEADERS=OFF -DPCL_UVOL_UNITY=OFF >/dev/null || return
   local headers
   headers=$(fingerprint '*.clang-tidy' '*.h' '*.hpp')
   sed -n "s|.*\"file\": \"$PWD/\(.*\.cpp\)\".*|\1|p" build/tidy/compile_commands.json | sort -u |

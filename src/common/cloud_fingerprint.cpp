@@ -11,7 +11,7 @@ namespace pcl_uvol {
 
 namespace {
 
-constexpr std::size_t block_points = 1u << 16;
+constexpr std::size_t fingerprint_block = 1u << 16;
 
 template <std::size_t bytes>
 std::uint64_t
@@ -89,10 +89,11 @@ computeFingerprint(const CloudView& cloud, const ScalarField& field, unsigned th
     parts.push_back({component.offset, datatypeSize(component.datatype)});
     all.values = mixWords(all.values, component.datatype);
   }
-  std::vector<CloudFingerprint> blocks((cloud.count + block_points - 1) / block_points);
+  std::vector<CloudFingerprint> blocks((cloud.count + fingerprint_block - 1) /
+                                       fingerprint_block);
   parallelBlocks(
-      cloud.count, block_points, threads, [&](std::size_t begin, std::size_t end) {
-        blocks[begin / block_points] = fingerprintBlock(cloud, parts, begin, end);
+      cloud.count, fingerprint_block, threads, [&](std::size_t begin, std::size_t end) {
+        blocks[begin / fingerprint_block] = fingerprintBlock(cloud, parts, begin, end);
       });
   for (const CloudFingerprint& block : blocks) {
     all.positions += block.positions;

@@ -2,6 +2,7 @@
 // Field expressions resolved against the fields of a cloud.
 #include "common/scalar_field.h"
 
+#include "common/numbers.h"
 #include "common/printable.h"
 #include "common/scalar_names.h"
 #include <pcl_uvol/common/exceptions.h>
@@ -54,19 +55,6 @@ readAs(const std::uint8_t* bytes)
   T value;
   std::memcpy(&value, bytes, sizeof(T));
   return static_cast<double>(value);
-}
-
-std::string
-trimmed(std::string_view text)
-{
-  const auto blank = [](char c) {
-    return std::isspace(static_cast<unsigned char>(c)) != 0;
-  };
-  while (!text.empty() && blank(text.front()))
-    text.remove_prefix(1);
-  while (!text.empty() && blank(text.back()))
-    text.remove_suffix(1);
-  return std::string(text);
 }
 
 std::size_t
@@ -147,7 +135,7 @@ scalarComponent(const Fields& fields, const std::string& expression)
   if (parsed.ec != std::errc() || parsed.ptr != last)
     throw InvalidArgument("The component in " + quoteText(expression) +
                           " is not a number from 0, as in vel[1].");
-  const std::string name = trimmed(std::string_view(expression).substr(0, bracket));
+  const std::string name(trimmed(std::string_view(expression).substr(0, bracket)));
   const auto* const field = findField(fields, name);
   const auto parts = // of one field there may be very many
       field ? std::vector<FieldComponent>() : allComponents(fields, name);
@@ -240,7 +228,8 @@ FieldComponent::read(const std::uint8_t* point) const
 }
 
 ScalarField::ScalarField(const Fields& fields, const std::string& expression)
-    : name_(findField(fields, expression) ? expression : trimmed(expression))
+    : name_(findField(fields, expression) ? expression
+                                          : std::string(trimmed(expression)))
     , is_length_(!findField(fields, name_) && name_.size() > 1 &&
                  name_.front() == '|' && name_.back() == '|')
 {
@@ -250,14 +239,15 @@ ScalarField::ScalarField(const Fields& fields, const std::string& expression)
   }
   const std::string inside = name_.substr(1, name_.size() - 2);
   if (inside.find(',') == std::string::npos ||
-      !findComponents(fields, trimmed(inside)).empty()) {
-    components_ = allComponents(fields, trimmed(inside));
+      !findComponents(fields, std::string(trimmed(inside))).empty()) {
+    components_ = allComponents(fields, std::string(trimmed(inside)));
     return;
   }
   for (std::size_t start = 0; start <= inside.size();) {
     const std::size_t end = std::min(inside.find(',', start), inside.size());
     components_.push_back(scalarComponent(
-        fields, trimmed(std::string_view(inside).substr(start, end - start))));
+        fields,
+        std::string(trimmed(std::string_view(inside).substr(start, end - start)))));
     start = end + 1;
   }
 }

@@ -25,7 +25,7 @@ constexpr double largest_stretch = 0x1p60;
 constexpr int most_exponent = 1022;
 
 /** Many more than a sketch keeps. */
-constexpr std::size_t block_points = 1u << 17;
+constexpr std::size_t range_block = 1u << 17;
 
 } // namespace
 
@@ -60,10 +60,10 @@ ValueRange::findFrame() const
 ValueRange
 findValueRange(const CloudView& cloud, const ScalarField& field, unsigned threads)
 {
-  std::vector<ValueRange> blocks((cloud.count + block_points - 1) / block_points);
+  std::vector<ValueRange> blocks((cloud.count + range_block - 1) / range_block);
   parallelBlocks(
-      cloud.count, block_points, threads, [&](std::size_t begin, std::size_t end) {
-        ValueRange& range = blocks[begin / block_points];
+      cloud.count, range_block, threads, [&](std::size_t begin, std::size_t end) {
+        ValueRange& range = blocks[begin / range_block];
         for (std::size_t i = begin; i < end; ++i)
           range.add(field.read(cloud.point(i)));
       });

@@ -30,7 +30,7 @@ constexpr Eigen::Index least_freedom = 5;
 
 /** A pivot that is a smaller part of the largest one is rounding of coordinates in
  * float. */
-constexpr double smallest_pivot = 1e-5;
+constexpr double smallest_planar_pivot = 1e-5;
 
 constexpr int newton_steps = 6;
 
@@ -77,7 +77,7 @@ struct Polynomial {
              Eigen::Index term_count)
       : terms(term_count)
   {
-    factors.setThreshold(smallest_pivot);
+    factors.setThreshold(smallest_planar_pivot);
     factors.compute(weighted.leftCols(terms));
     const Eigen::Index freedom = weight_count - terms;
     is_determined = factors.rank() == terms && freedom >= least_freedom;
@@ -119,7 +119,7 @@ struct Polynomial {
   {
     const VectorXd given = factors.solve(term);
     const VectorXd rest = term - weighted.leftCols(terms) * given;
-    if (!(rest.norm() > smallest_pivot * term.norm()))
+    if (!(rest.norm() > smallest_planar_pivot * term.norm()))
       return 0.0;
     return rest.dot(values) / rest.squaredNorm() *
            (at_place - given.dot(place.head(terms)));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "distributed/decomposition.h"
 
+#include "common/constants.h"
 #include "distributed/byte_stream.h"
 #include "distributed/median_search.h"
 #include <pcl_uvol/common/exceptions.h>
@@ -14,8 +15,6 @@
 namespace pcl_uvol {
 
 namespace {
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 bool
 isBelow(int axis, const PlaneKey& a, const PlaneKey& b)
@@ -31,8 +30,8 @@ CellKey
 CellKey::unbounded()
 {
   CellKey cell;
-  cell.low.fill({-infinity, {}});
-  cell.high.fill({infinity, {}});
+  cell.low.fill({-infinity<float>, {}});
+  cell.high.fill({infinity<float>, {}});
   return cell;
 }
 

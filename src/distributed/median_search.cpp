@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "distributed/median_search.h"
 
+#include "common/constants.h"
 #include "common/parallel.h"
 #include "common/random.h"
 #include "distributed/bernoulli_sampler.h"
@@ -16,9 +17,8 @@ namespace pcl_uvol {
 
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr Position below_all{{-infinity, -infinity, -infinity}};
-constexpr Position above_all{{infinity, infinity, infinity}};
+constexpr Position below_all{{-infinity<float>, -infinity<float>, -infinity<float>}};
+constexpr Position above_all{{infinity<float>, infinity<float>, infinity<float>}};
 
 /** Positions that are drawn: per n^(2/3) of n samples, at most 32 MB of them or as many
  * per node. As many are left between the bounds of some ten medians, so that these take
@@ -35,7 +35,7 @@ constexpr std::size_t most_kept_of_all = 1u << 21;
 constexpr double bound_distance = 1.75;
 
 /** Samples that a thread takes at once. */
-constexpr std::size_t block_samples = 1u << 14;
+constexpr std::size_t median_block = 1u << 14;
 
 /** Call visit(thread, index, position) for all samples of this process. */
 template <typename Visit>
@@ -43,11 +43,11 @@ void
 forEachSample(const PositionSource& source, std::size_t threads, const Visit& visit)
 {
   const auto work = [&](std::size_t thread, std::size_t) {
-    std::vector<Position> buffer(block_samples);
-    for (std::uint64_t begin = thread * block_samples; begin < source.count;
-         begin += threads * block_samples) {
+    std::vector<Position> buffer(median_block);
+    for (std::uint64_t begin = thread * median_block; begin < source.count;
+         begin += threads * median_block) {
       const std::size_t count =
-          std::min<std::uint64_t>(source.count - begin, block_samples);
+          std::min<std::uint64_t>(source.count - begin, median_block);
       const Position* const positions = source.read(begin, count, buffer.data());
       for (std::size_t i = 0; i < count; ++i)
         visit(thread, begin + i, positions[i]);
@@ -72,7 +72,7 @@ Position
 before(int axis, Position position)
 {
   float& last = position[(axis + 2) % 3];
-  last = std::nextafter(last, -infinity);
+  last = std::nextafter(last, -infinity<float>);
   return position;
 }
 
@@ -384,7 +384,7 @@ private:
     for (std::size_t rank = 0; rank < communicator_.size(); ++rank) {
       ByteWriter writer(messages[rank]);
       for (std::size_t node = share(rank); node < share(rank + 1); ++node)
-        if (mine[node].above_upper[axis_] < infinity)
+        if (mine[node].above_upper[axis_] < infinity<float>)
           writer.put(
               NodePosition{static_cast<std::uint32_t>(node), mine[node].above_upper});
     }

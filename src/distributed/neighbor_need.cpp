@@ -15,7 +15,7 @@
 namespace pcl_uvol {
 namespace {
 
-constexpr std::size_t block_samples = 1024;
+constexpr std::size_t need_block = 1024;
 
 /** Room for rounding: a ball must not be too small by one bit. */
 constexpr float slack = 1.0001f;
@@ -140,7 +140,7 @@ private:
   {
     return parallelGather<Answer>(
         questions.size(),
-        block_samples,
+        need_block,
         threads_,
         [&](std::size_t begin, std::size_t end, std::vector<Answer>& found) {
           NearestFinder finder(piece_.getSamples(), settings_.neighbors);

@@ -14,7 +14,7 @@ namespace pcl_uvol {
 
 namespace {
 
-constexpr std::size_t block_samples = 1u << 14;
+constexpr std::size_t piece_block = 1u << 14;
 
 /** Samples that the planes around a cell rest on. */
 constexpr std::size_t anchors_per_cell = 6;
@@ -26,7 +26,7 @@ std::vector<SampleRecord>
 makeRecords(const std::vector<Position>& positions, unsigned threads)
 {
   std::vector<SampleRecord> records(positions.size());
-  parallelBlocks(records.size(), block_samples, threads, [&](auto begin, auto end) {
+  parallelBlocks(records.size(), piece_block, threads, [&](auto begin, auto end) {
     for (std::size_t i = begin; i < end; ++i)
       records[i] = {positions[i], static_cast<std::uint32_t>(i)};
   });
@@ -238,7 +238,7 @@ Piece::build(const Decomposition& decomposition,
   Samples ordered;
   ordered.values.resize(records.size());
   ordered.sources.resize(records.size());
-  parallelBlocks(records.size(), block_samples, threads, [&](auto begin, auto end) {
+  parallelBlocks(records.size(), piece_block, threads, [&](auto begin, auto end) {
     for (std::size_t i = begin; i < end; ++i) {
       samples.positions[i] = records[i].position;
       ordered.values[i] = samples.values[records[i].input_index];

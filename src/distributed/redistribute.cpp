@@ -17,7 +17,7 @@ namespace {
 using SamplesOfPieces = std::map<std::size_t, Samples>;
 
 /** Samples that a thread takes at once. */
-constexpr std::size_t block_samples = 1u << 14;
+constexpr std::size_t sent_block = 1u << 14;
 
 /** With fewer processes, sending the samples twice costs more than it saves (the model
  * in tests/benchmarks/README.md). */
@@ -29,7 +29,7 @@ std::vector<Samples>
 partSamples(Samples& samples, const Decomposition& decomposition, unsigned threads)
 {
   std::vector<std::uint32_t> piece_of(samples.size());
-  parallelBlocks(samples.size(), block_samples, threads, [&](auto begin, auto end) {
+  parallelBlocks(samples.size(), sent_block, threads, [&](auto begin, auto end) {
     for (std::size_t i = begin; i < end; ++i)
       piece_of[i] =
           static_cast<std::uint32_t>(decomposition.findPiece(samples.positions[i]));

@@ -10,7 +10,7 @@ namespace pcl_uvol {
 namespace {
 
 /** Samples that are read at once: some megabytes. */
-constexpr std::size_t block_samples = 1u << 19;
+constexpr std::size_t file_block = 1u << 19;
 
 /** Samples that a thread takes at once. */
 constexpr std::size_t thread_samples = 1u << 14;
@@ -175,8 +175,8 @@ void
 SampleLog::take(const std::function<void(Samples&)>& block)
 {
   Samples samples;
-  for (std::uint64_t begin = 0; begin < size(); begin += block_samples) {
-    const std::size_t count = std::min<std::uint64_t>(size() - begin, block_samples);
+  for (std::uint64_t begin = 0; begin < size(); begin += file_block) {
+    const std::size_t count = std::min<std::uint64_t>(size() - begin, file_block);
     file_.read(begin, count, samples);
     file_.release(begin, count);
     for (Position& position : samples.positions)

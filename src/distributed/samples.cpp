@@ -14,7 +14,7 @@ namespace pcl_uvol {
 
 namespace {
 
-constexpr std::size_t block_samples = 1u << 14;
+constexpr std::size_t scatter_block = 1u << 14;
 
 } // namespace
 
@@ -97,10 +97,10 @@ readSamples(const CloudView& cloud,
   struct Counts {
     std::size_t samples, no_value, non_finite;
   };
-  std::vector<Counts> counts((cloud.count + block_samples - 1) / block_samples);
+  std::vector<Counts> counts((cloud.count + scatter_block - 1) / scatter_block);
   const auto for_each_block = [&](const auto& visit) {
-    parallelBlocks(cloud.count, block_samples, threads, [&](auto begin, auto end) {
-      visit(begin, end, counts[begin / block_samples]);
+    parallelBlocks(cloud.count, scatter_block, threads, [&](auto begin, auto end) {
+      visit(begin, end, counts[begin / scatter_block]);
     });
   };
   for_each_block([&](std::size_t begin, std::size_t end, Counts& count) {

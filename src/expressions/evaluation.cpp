@@ -18,7 +18,7 @@ namespace {
 /** Points that a program, which has to be parsed again by every thread, is made for. */
 constexpr std::size_t block_points = 1u << 12;
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
 /** Derivatives first, which see all points, then everything else block by block. */
 class Evaluation {
@@ -113,7 +113,7 @@ private:
       const double value = program.compute();
       const bool has_value =
           std::isfinite(value) && (are_there || missing == Missing::Comparisons);
-      targets[0][i] = has_value ? value : none;
+      targets[0][i] = has_value ? value : no_value;
       undefined += are_finite && !std::isfinite(value);
     }
     return undefined;

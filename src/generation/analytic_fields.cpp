@@ -2,6 +2,7 @@
 // The formulas of the analytic fields.
 #include "generation/analytic_fields.h"
 
+#include "common/constants.h"
 #include "common/printable.h"
 #include "common/random.h"
 #include <pcl_uvol/common/exceptions.h>
@@ -14,8 +15,6 @@ namespace pcl_uvol {
 namespace {
 
 using Position = std::array<double, 3>;
-
-constexpr double pi = 3.141592653589793;
 
 double
 radius(const Position& p)

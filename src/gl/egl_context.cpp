@@ -12,8 +12,8 @@ namespace pcl_uvol {
 
 namespace {
 
-const char* const advice = "install libegl1 and libegl-mesa0 or the driver of the "
-                           "graphics card, or use the cpu backend instead";
+const char* const egl_advice = "install libegl1 and libegl-mesa0 or the driver of the "
+                               "graphics card, or use the cpu backend instead";
 
 /** EGL's functions; those of extensions may be null. */
 struct Egl {
@@ -67,7 +67,7 @@ class EglContext : public HeadlessContext {
 public:
   EglContext(EglDevice device, const std::string& library, std::optional<int> card)
       : HeadlessContext("egl")
-      , egl_(SharedLibrary({library}, advice))
+      , egl_(SharedLibrary({library}, egl_advice))
   {
     run([&] {
       if (!createOn(device, card)) {
@@ -76,7 +76,8 @@ public:
             card ? "of graphics card " + std::to_string(*card) + ", counted from 0"
             : device == EglDevice::Hardware ? "of a graphics card"
                                             : "here";
-        throw GlError("EGL has no OpenGL 3.3 core context " + of + ": " + advice + ".");
+        throw GlError("EGL has no OpenGL 3.3 core context " + of + ": " + egl_advice +
+                      ".");
       }
     });
   }

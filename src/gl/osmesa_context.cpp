@@ -18,7 +18,7 @@ constexpr int osmesa_major_version = 0x36;
 constexpr int osmesa_minor_version = 0x37;
 using OsMesaHandle = struct osmesa_context*;
 
-const char* const advice =
+const char* const osmesa_advice =
     "install libosmesa6, or use the egl or the cpu backend instead";
 
 /** OSMesa's functions. */
@@ -42,7 +42,7 @@ class OsMesaContext : public HeadlessContext {
 public:
   explicit OsMesaContext(const std::vector<std::string>& libraries)
       : HeadlessContext("osmesa")
-      , osmesa_(SharedLibrary(libraries, advice))
+      , osmesa_(SharedLibrary(libraries, osmesa_advice))
   {
     try {
       run([this] { create(); });

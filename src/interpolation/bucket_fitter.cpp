@@ -3,6 +3,7 @@
 
 #include "common/dispatch.h"
 #include "interpolation/blend_kernel.h"
+#include "interpolation/fit_bounds.h"
 #include "interpolation/reduced_fit.h"
 
 #include <algorithm>
@@ -18,15 +19,6 @@ const KernelTable<PolynomialKernel> kernels{
 
 /** Room for the sample itself, the farthest one, and an even number. */
 constexpr std::size_t most_neighbors = BucketFitter::fitted_samples + 2;
-
-/** Share of the distance of the farthest sample, where there are so few samples that
- * all of them are neighbours: none should lose its weight. */
-constexpr double radius_of_few = 1.5;
-
-/** A bound of a cubic that is no larger than 1 in a ball of radius 1: first and second
- * derivatives at the centre (Bernstein's inequality), and room for samples that lie on
- * one side or do not show its largest value. */
-constexpr double steepest = 2.0 * 3.0, most_curved = 4.0 * 9.0;
 
 /** Share of the largest pivot: residuals are amplified by the reciprocal of a smaller
  * one. */

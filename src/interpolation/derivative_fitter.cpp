@@ -2,6 +2,7 @@
 #include "interpolation/derivative_fitter.h"
 
 #include "common/dispatch.h"
+#include "interpolation/fit_bounds.h"
 #include "interpolation/sample_metrics.h"
 #include "interpolation/slope_fit.h"
 
@@ -16,7 +17,7 @@ namespace pcl_uvol::detail {
 
 namespace {
 
-const KernelTable<PolynomialKernel> kernels{
+const KernelTable<PolynomialKernel> derivative_kernels{
     baseline::fitPolynomials, avx2::fitPolynomials, avx512::fitPolynomials};
 
 /** Samples with a weight in a fit: twice the 20 terms of a cubic, as for isopoints. */
@@ -30,16 +31,7 @@ constexpr std::size_t fitted_samples = 40;
 constexpr std::size_t samples_in_metric = 26;
 
 /** Room for the sample itself, the farthest one, and an even number. */
-constexpr std::size_t most_neighbors = fitted_samples + 2;
-
-/** Share of the distance of the farthest sample, where there are so few samples that
- * all of them are neighbours: none should lose its weight. */
-constexpr double radius_of_few = 1.5;
-
-/** A bound of a cubic that is no larger than 1 in a ball of radius 1: first and second
- * derivatives at the centre (Bernstein's inequality), and room for samples that lie on
- * one side or do not show its largest value. */
-constexpr double steepest = 2.0 * 3.0, most_curved = 4.0 * 9.0;
+constexpr std::size_t most_fitted = fitted_samples + 2;
 
 /** Least pivots of fits that need no other metric, and of fits that are worth
  * something, and how much stretching matters then: as for isopoints, see
@@ -102,9 +94,9 @@ DerivativeFitter::DerivativeFitter(const SampledFields& sampled)
     , finder_in_metric_(*sampled.samples, samples_in_metric + 1, true)
     , metrics_(*sampled.samples)
     , group_metrics_(*sampled.samples)
-    , kernel_(kernels.get())
-    , samples_(most_neighbors)
-    , values_(sampled.fields * most_neighbors)
+    , kernel_(derivative_kernels.get())
+    , samples_(most_fitted)
+    , values_(sampled.fields * most_fitted)
     , results_(sampled.fields)
 {
 }
@@ -168,11 +160,11 @@ void
 DerivativeFitter::clear(std::size_t lane, std::size_t from)
 {
   constexpr double outside = 2.0; // no weight there
-  for (std::size_t j = from; j < most_neighbors; ++j) {
+  for (std::size_t j = from; j < most_fitted; ++j) {
     samples_[j].x[lane] = outside;
     samples_[j].y[lane] = samples_[j].z[lane] = 0.0;
     for (std::size_t f = 0; f < sampled_.fields; ++f)
-      values_[f * most_neighbors + j].value[lane] = 0.0;
+      values_[f * most_fitted + j].value[lane] = 0.0;
   }
   weighted_[lane] = 0;
 }
@@ -201,7 +193,7 @@ DerivativeFitter::gather(std::uint32_t sample, std::size_t lane)
     samples_[j].z[lane] = u[2];
     weighted_[lane] += u.squaredNorm() < 1.0;
     for (std::size_t f = 0; f < sampled_.fields; ++f)
-      values_[f * most_neighbors + j].value[lane] =
+      values_[f * most_fitted + j].value[lane] =
           sampled_.valuesOf(near.samples[j])[f] - sampled_.valuesOf(sample)[f];
   }
 }
@@ -213,8 +205,8 @@ DerivativeFitter::followsValues(std::size_t lane, double most_error) const
     return false;
   for (std::size_t f = 0; f < sampled_.fields; ++f) {
     double spread = 0.0, first = 0.0, second = 0.0;
-    for (std::size_t j = 0; j < most_neighbors; ++j)
-      spread = std::max(spread, std::abs(values_[f * most_neighbors + j].value[lane]));
+    for (std::size_t j = 0; j < most_fitted; ++j)
+      spread = std::max(spread, std::abs(values_[f * most_fitted + j].value[lane]));
     for (std::size_t i = 1; i <= 3; ++i)
       first = std::max(first, std::abs(results_[f].coefficient[i][lane]));
     for (std::size_t i = 4; i <= 9; ++i)

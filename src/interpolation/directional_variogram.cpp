@@ -15,10 +15,10 @@ using Eigen::Array3d;
 namespace {
 
 /** Samples out of all parts of the set, all pairs of which count. */
-constexpr std::size_t most_centers = 1200;
+constexpr std::size_t most_sector_centers = 1200;
 
 /** Nearest samples of each of them that make pairs with it. */
-constexpr std::size_t near_samples = 32;
+constexpr std::size_t near_sector = 32;
 
 /** Classes along an axis: of offsets of 2^-n to 2^(1-n) spreads; smaller ones are in
  * the last of them. */
@@ -29,7 +29,7 @@ constexpr int octaves = 11, offset_classes = octaves + 1;
 constexpr double farthest = 1.5;
 
 /** A class of fewer pairs tells nothing; of so many it counts half. */
-constexpr double least_pairs = 8.0, half_pairs = 50.0;
+constexpr double least_lag_pairs = 8.0, half_pairs = 50.0;
 
 /** Steps of the search, of logarithms: from a factor of 4 to one of 1.05. */
 constexpr double first_step = 1.3862943611198906, last_step = 0.0487901641694320;
@@ -78,7 +78,7 @@ public:
   {
     std::vector<OffsetClass> classes;
     for (const Sum& sum : sums_)
-      if (sum.pairs >= least_pairs && sum.root > 0.0)
+      if (sum.pairs >= least_lag_pairs && sum.root > 0.0)
         classes.push_back({sum.sq_offset / sum.pairs,
                            4.0 * std::log(sum.root / sum.pairs),
                            sum.pairs / (sum.pairs + half_pairs)});
@@ -126,8 +126,9 @@ classifyPairs(const SampleSet& samples,
               double spread)
 {
   PairTable table(samples, values, spread);
-  const std::size_t step = (samples.size() + most_centers - 1) / most_centers;
-  NearestFinder finder(samples, near_samples + 1);
+  const std::size_t step =
+      (samples.size() + most_sector_centers - 1) / most_sector_centers;
+  NearestFinder finder(samples, near_sector + 1);
   for (std::size_t i = 0; i < samples.size(); i += step) {
     const auto near = finder.find(samples.getPositions()[i], 1.0f);
     for (std::size_t j = 0; j < near.size; ++j)

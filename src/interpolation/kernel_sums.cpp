@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "interpolation/kernel_sums.h"
 
+#include "common/constants.h"
 #include "common/parallel.h"
 #include "common/scalar_field.h"
 #include "interpolation/query_search.h"
@@ -15,9 +16,7 @@ namespace pcl_uvol::detail {
 
 namespace {
 
-constexpr std::size_t block_samples = 1024;
-constexpr double pi = 3.14159265358979323846;
-
+constexpr std::size_t sum_block = 1024;
 double
 power(double base, int exponent)
 {
@@ -199,7 +198,7 @@ KernelSums::completeLengths(unsigned threads, StepTimer& step)
 {
   const SampleSet& samples = *sampled_.samples;
   lengths_.resize(samples.size(), 0.0);
-  parallelBlocks(samples.size(), block_samples, threads, [&](auto begin, auto end) {
+  parallelBlocks(samples.size(), sum_block, threads, [&](auto begin, auto end) {
     NearestFinder finder(samples, parameters_.k + 1);
     float reach = 1.0f;
     for (std::size_t i = begin; i < end; ++i) {
@@ -226,7 +225,7 @@ KernelSums::setVolumes(const Particles& particles, unsigned threads, StepTimer& 
                ? 1.0
                : particles.masses[i];
   };
-  parallelBlocks(samples.size(), block_samples, threads, [&](auto begin, auto end) {
+  parallelBlocks(samples.size(), sum_block, threads, [&](auto begin, auto end) {
     std::vector<std::uint32_t> buckets;
     for (std::size_t i = begin; i < end; ++i) {
       if (!particles.densities.empty() && isPositive(particles.densities[i])) {

@@ -18,7 +18,7 @@
 namespace pcl_uvol {
 namespace {
 
-constexpr std::size_t block_samples = 1024;
+constexpr std::size_t layer_block = 1024;
 /** Neighbours that tell how far out the layer lies. */
 constexpr std::size_t spacing_neighbors = 12;
 /** Neighbours that tell how much must be empty: of random samples a ball that holds
@@ -56,7 +56,7 @@ findOuter(const SampleSet& samples, unsigned threads, Report& report)
   const std::vector<Position> directions = listDirections();
   return parallelGather<Outer>(
       samples.size(),
-      block_samples,
+      layer_block,
       threads,
       [&](std::size_t begin, std::size_t end, std::vector<Outer>& found) {
         NearestFinder around(samples, empty_neighbors + 1), nearest(samples, 1);

@@ -10,7 +10,7 @@ namespace pcl_uvol::detail {
 
 namespace {
 
-constexpr std::size_t block_queries = 1u << 14;
+constexpr std::size_t order_block = 1u << 14;
 
 /** Bits per axis of the curve: three of them make a number of 63. */
 constexpr int axis_bits = 21;
@@ -48,7 +48,7 @@ std::vector<std::uint32_t>
 orderInSpace(const std::vector<Query>& queries, const KdBox& box, unsigned threads)
 {
   std::vector<std::pair<std::uint64_t, std::uint32_t>> places(queries.size());
-  parallelBlocks(queries.size(), block_queries, threads, [&](auto begin, auto end) {
+  parallelBlocks(queries.size(), order_block, threads, [&](auto begin, auto end) {
     for (std::size_t i = begin; i < end; ++i)
       places[i] = {placeOnCurve(queries[i], box), static_cast<std::uint32_t>(i)};
   });

@@ -18,7 +18,7 @@ namespace {
 using Columns = std::vector<std::vector<double>>;
 
 /** Samples that are fitted together: near one another, and a multiple of the lanes. */
-constexpr std::size_t block_samples = 256;
+constexpr std::size_t derivative_block = 256;
 
 /** A linear function in space has so many coefficients. */
 constexpr std::size_t least_samples = 4;
@@ -140,7 +140,7 @@ computeDerivatives(const CloudView& cloud,
   std::atomic<std::uint64_t> reduced{0}, unknown{0};
   const auto per_length = static_cast<double>(samples.getUnit().factor);
   StepTimer step(report, "derivatives", samples.size());
-  parallelBlocks(samples.size(), block_samples, threads, [&](auto begin, auto end) {
+  parallelBlocks(samples.size(), derivative_block, threads, [&](auto begin, auto end) {
     const BlockDerivatives found = DerivativeFitter(sampled).fit(
         static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end - begin));
     reduced += found.reduced;

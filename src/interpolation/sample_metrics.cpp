@@ -11,12 +11,12 @@ namespace pcl_uvol::detail {
 
 namespace {
 
-constexpr std::size_t block_samples = 1024;
+constexpr std::size_t metric_block = 1024;
 
 /** Samples out of all parts of a set that are looked at first, and the share of them
  * that must be stretched: of uniform random samples less than one in a hundred is. */
 constexpr std::size_t most_looks = 1024;
-constexpr double least_share = 0.02;
+constexpr double least_stretched = 0.02;
 
 bool
 hasStretched(const SampleSet& samples)
@@ -29,7 +29,7 @@ hasStretched(const SampleSet& samples)
     stretched += finder.find(anchor, SampleMetrics::least_ratio);
     ++looks;
   }
-  return static_cast<double>(stretched) > least_share * static_cast<double>(looks);
+  return static_cast<double>(stretched) > least_stretched * static_cast<double>(looks);
 }
 
 } // namespace
@@ -40,11 +40,11 @@ SampleMetrics::SampleMetrics(const SampleSet& samples, unsigned threads)
     return;
   const std::size_t count = samples.size();
   metric_of_.assign(count, even);
-  std::vector<std::vector<StretchedMetric>> of_blocks((count + block_samples - 1) /
-                                                      block_samples);
-  parallelBlocks(count, block_samples, threads, [&](auto begin, auto end) {
+  std::vector<std::vector<StretchedMetric>> of_blocks((count + metric_block - 1) /
+                                                      metric_block);
+  parallelBlocks(count, metric_block, threads, [&](auto begin, auto end) {
     LocalMetricFinder finder(samples);
-    std::vector<StretchedMetric>& found = of_blocks[begin / block_samples];
+    std::vector<StretchedMetric>& found = of_blocks[begin / metric_block];
     std::uint32_t last = even;
     bool is_stretched = false;
     for (std::size_t i = begin; i < end; ++i) {
@@ -62,8 +62,8 @@ SampleMetrics::SampleMetrics(const SampleSet& samples, unsigned threads)
   // Indices are those in the block until now.
   std::size_t before = 0;
   for (std::size_t block = 0; block < of_blocks.size(); ++block) {
-    const std::size_t end = std::min(count, (block + 1) * block_samples);
-    for (std::size_t i = block * block_samples; i < end; ++i)
+    const std::size_t end = std::min(count, (block + 1) * metric_block);
+    for (std::size_t i = block * metric_block; i < end; ++i)
       if (metric_of_[i] != even)
         metric_of_[i] += static_cast<std::uint32_t>(before);
     metrics_.insert(metrics_.end(), of_blocks[block].begin(), of_blocks[block].end());

@@ -11,12 +11,12 @@ namespace pcl_uvol::detail {
 namespace {
 
 /** Residuals of fewer degrees of freedom say nothing about the error. */
-constexpr double least_freedom = 5.0;
+constexpr double least_slope_freedom = 5.0;
 
 /** Share of the largest pivot. A smaller one is rounding of coordinates in float: it
  * determines nothing. Above the first degree residuals are amplified by its
  * reciprocal. */
-constexpr double rounding = 1e-6, clear_pivot = 0.02;
+constexpr double rounding = 1e-6, clear_slope_pivot = 0.02;
 
 constexpr int most_degrees = 2;
 
@@ -57,10 +57,10 @@ SlopeFit::SlopeFit(const Eigen::MatrixXd& offsets, const Eigen::VectorXd& root_w
     const Eigen::MatrixXd terms =
         root_weights_.asDiagonal() * makeTerms(offsets, degree);
     const double freedom = static_cast<double>(count - terms.cols());
-    if (freedom < (degree > 1 ? least_freedom : 0.0))
+    if (freedom < (degree > 1 ? least_slope_freedom : 0.0))
       break;
     Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors;
-    factors.setThreshold(degree > 1 ? clear_pivot : rounding);
+    factors.setThreshold(degree > 1 ? clear_slope_pivot : rounding);
     factors.compute(terms);
     if (factors.rank() < terms.cols())
       break;

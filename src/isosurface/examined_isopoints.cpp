@@ -10,7 +10,7 @@ namespace pcl_uvol {
 namespace {
 
 bool
-isBefore(const Position& a, const Position& b)
+comesBefore(const Position& a, const Position& b)
 {
   return lessAlong(0, a, b);
 }
@@ -38,13 +38,13 @@ ExaminedCandidates::list() const
 ExaminedIsopoints::ExaminedIsopoints(const ExaminedCandidates& candidates)
     : roots_(candidates.list())
 {
-  std::sort(roots_.begin(), roots_.end(), isBefore);
+  std::sort(roots_.begin(), roots_.end(), comesBefore);
 }
 
 bool
 ExaminedIsopoints::contain(const Position& root) const
 {
-  return std::binary_search(roots_.begin(), roots_.end(), root, isBefore);
+  return std::binary_search(roots_.begin(), roots_.end(), root, comesBefore);
 }
 
 void

@@ -15,7 +15,7 @@ namespace pcl_uvol {
 
 namespace {
 
-constexpr std::size_t block_points = 1u << 13;
+constexpr std::size_t edge_block = 1u << 13;
 
 /** Bytes that go from one point layout to another. */
 struct FieldCopy {
@@ -152,7 +152,7 @@ interpolateFields(const CloudView& samples,
   result.row_step = result.point_step * result.width;
   result.data.resize(static_cast<std::size_t>(result.point_step) * edges.size());
   parallelBlocks(
-      edges.size(), block_points, threads, [&](std::size_t begin, std::size_t end) {
+      edges.size(), edge_block, threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
           std::uint8_t* const out = &result.data[i * result.point_step];
           for (const FieldCopy& copy : own)

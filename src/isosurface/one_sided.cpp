@@ -11,7 +11,7 @@ namespace pcl_uvol {
 
 namespace {
 
-constexpr std::size_t block_points = 256;
+constexpr std::size_t one_sided_block = 256;
 
 /** Samples that decide. Around a place on a surface each is on either side by chance:
  * so many are all on one side at 2 * 0.5^8 = 0.8 % of the places. Of a glider's 220
@@ -64,12 +64,13 @@ removeContradicted(const IsopointInput& input,
                    Report& report)
 {
   std::vector<std::uint8_t> contradicted(points.size());
-  parallelBlocks(points.size(), block_points, input.threads, [&](auto begin, auto end) {
-    OneSidedTest test(input, isovalue);
-    float reach = 0.0f;
-    for (std::size_t i = begin; i < end; ++i)
-      contradicted[i] = test.contradicts(points[i], edges[i], reach);
-  });
+  parallelBlocks(
+      points.size(), one_sided_block, input.threads, [&](auto begin, auto end) {
+        OneSidedTest test(input, isovalue);
+        float reach = 0.0f;
+        for (std::size_t i = begin; i < end; ++i)
+          contradicted[i] = test.contradicts(points[i], edges[i], reach);
+      });
   std::size_t kept = 0;
   for (std::size_t i = 0; i < points.size(); ++i)
     if (contradicted[i] == 0) {

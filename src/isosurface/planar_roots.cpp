@@ -14,7 +14,7 @@ constexpr std::size_t seen_samples = 41;
 
 /** Samples with a weight in a fit, twice the 10 terms of a cubic; the next farther one
  * sets the radius of the support. */
-constexpr std::size_t fitted_samples = 20;
+constexpr std::size_t planar_samples = 20;
 
 } // namespace
 
@@ -49,7 +49,7 @@ PlanarRoots::fillLane(const IsoEdge& edge, Surroundings& surroundings)
 {
   const std::vector<Position>& positions = input_.samples.getPositions();
   const std::vector<float>& values = input_.values;
-  const std::size_t count = std::min(nearest_.size(), fitted_samples + 1);
+  const std::size_t count = std::min(nearest_.size(), planar_samples + 1);
   const float radius = std::sqrt(nearest_[count - 1].first), per_radius = 1.0f / radius;
   float lowest = std::numeric_limits<float>::infinity(), highest = -lowest;
   neighbors_.clear();

@@ -19,7 +19,7 @@ namespace pcl_uvol {
 
 namespace {
 
-constexpr std::size_t block_points = 256;
+constexpr std::size_t root_block = 256;
 
 /** Samples with a weight in a fit; the next farther one sets the radius of the support.
  * Twice the 20 terms of a cubic: fewer follow noise, more flatten details. */
@@ -506,7 +506,7 @@ fitRoots(const IsopointInput& input,
   if (searched)
     searched->assign(points.size(), {});
   parallelBlocks(points.size(),
-                 block_points,
+                 root_block,
                  input.threads,
                  [&](std::size_t begin, std::size_t end) {
                    RootSmoother smoother(input, isovalue);

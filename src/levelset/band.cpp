@@ -14,7 +14,7 @@ namespace pcl_uvol {
 
 namespace {
 
-constexpr std::size_t block_samples = 4096;
+constexpr std::size_t band_block = 4096;
 
 /** Samples that a median is taken over, at most. */
 constexpr std::size_t most_measured = 8192;
@@ -98,7 +98,7 @@ samplesNear(const SampleSet& samples,
       SampleSet::buildInUnit(near.front().x, 3, all, LengthUnit{}, threads, ignored);
   return parallelGather<NearSample>(
       samples.size(),
-      block_samples,
+      band_block,
       threads,
       [&](std::size_t begin, std::size_t end, std::vector<NearSample>& found) {
         NearestFinder finder(*crossings, 1);
@@ -190,7 +190,7 @@ medianSpacing(const SampleSet& samples,
   const std::size_t count = std::min(around.size(), most_measured);
   const std::size_t neighbors = std::min(k, samples.size() - 1);
   std::vector<double> spacings(count);
-  parallelBlocks(count, block_samples, threads, [&](auto begin, auto end) {
+  parallelBlocks(count, band_block, threads, [&](auto begin, auto end) {
     NearestFinder finder(samples, neighbors + 1);
     for (std::size_t i = begin; i < end; ++i) {
       const auto row =

@@ -13,9 +13,9 @@ namespace pcl_uvol {
 
 namespace {
 
-constexpr std::size_t block_groups = 64;
+constexpr std::size_t deviation_groups = 64;
 
-const KernelTable<const EvolutionKernels*> kernel_table{
+const KernelTable<const EvolutionKernels*> deviation_kernels{
     &baseline::evolution_kernels, &avx2::evolution_kernels, &avx512::evolution_kernels};
 
 /** Two fields of the centres become their means over neighbours. */
@@ -33,8 +33,8 @@ average(const Band& band,
                          {first.data(), second.data()},
                          {means[0].data(), means[1].data()}};
   parallelBlocks(
-      band.stencils.groups(), block_groups, threads, [&](auto begin, auto end) {
-        kernel_table.get()->average(step, begin, end);
+      band.stencils.groups(), deviation_groups, threads, [&](auto begin, auto end) {
+        deviation_kernels.get()->average(step, begin, end);
       });
   first = std::move(means[0]);
   second = std::move(means[1]);

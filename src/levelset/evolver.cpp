@@ -15,7 +15,7 @@ namespace pcl_uvol {
 
 namespace {
 
-constexpr std::size_t block_groups = 64, block_places = 16384;
+constexpr std::size_t evolved_groups = 64, evolved_places = 16384;
 
 /** The rate of the longest steps with which steps of powers of two below take the least
  * work in all.
@@ -38,7 +38,7 @@ leastWork(const std::vector<double>& rates)
   return best;
 }
 
-const KernelTable<const EvolutionKernels*> kernel_table{
+const KernelTable<const EvolutionKernels*> evolution_kernel_table{
     &baseline::evolution_kernels, &avx2::evolution_kernels, &avx512::evolution_kernels};
 
 } // namespace
@@ -56,7 +56,7 @@ Evolver::Evolver(const Band& band,
     , threads_(threads)
     , spacing_(spacing)
     , mu_(mu)
-    , kernels_(*kernel_table.get())
+    , kernels_(*evolution_kernel_table.get())
     , centers_(band.centerPlaces())
     , phi_(std::move(phi))
     , rate_(phi_.size(), 0.0f)
@@ -91,7 +91,7 @@ template <typename Visit>
 void
 Evolver::forCenters(const Visit& visit) const
 {
-  parallelBlocks(centers_, block_places, threads_, [&](auto begin, auto end) {
+  parallelBlocks(centers_, evolved_places, threads_, [&](auto begin, auto end) {
     for (std::size_t i = begin; i < end; ++i)
       visit(i);
   });
@@ -177,7 +177,7 @@ Evolver::evaluate(const std::vector<std::uint32_t>& groups,
                           {normals_[0].data(), normals_[1].data(), normals_[2].data()},
                           slope_.data()};
     parallelBlocks(
-        band_.stencils.groups(), block_groups, threads_, [&](auto begin, auto end) {
+        band_.stencils.groups(), evolved_groups, threads_, [&](auto begin, auto end) {
           kernels_.findNormals(step, begin, end);
         });
   }
@@ -186,7 +186,7 @@ Evolver::evaluate(const std::vector<std::uint32_t>& groups,
   const double to_distance = parameters_.reinitialization == Reinitialization::Diffusion
                                  ? level_set.diffusion_weight
                                  : 0.0;
-  parallelBlocks(groups.size(), block_groups, threads_, [&](auto begin, auto end) {
+  parallelBlocks(groups.size(), evolved_groups, threads_, [&](auto begin, auto end) {
     for (std::size_t i = begin; i < end; ++i) {
       const double dt = step_scale * step_ * periodOf(groups[i]) * weakness_[groups[i]];
       const EvolutionStep step{stencils,
@@ -215,7 +215,7 @@ Evolver::evaluate(const std::vector<std::uint32_t>& groups,
 void
 Evolver::commit(const std::vector<std::uint32_t>& groups, float time)
 {
-  parallelBlocks(groups.size(), block_groups, threads_, [&](auto begin, auto end) {
+  parallelBlocks(groups.size(), evolved_groups, threads_, [&](auto begin, auto end) {
     for (std::size_t i = begin; i < end; ++i) {
       const auto per_period = static_cast<float>(1.0 / periodOf(groups[i]));
       const std::size_t first = groups[i] * stencil_lanes;
@@ -248,7 +248,7 @@ Evolver::averageTwice(const std::vector<float>& values,
 {
   const auto average = [&](const AverageStep& step) {
     parallelBlocks(band_.stencils.groups(),
-                   block_groups,
+                   evolved_groups,
                    threads_,
                    [&](auto begin, auto end) { kernels_.average(step, begin, end); });
   };
@@ -317,7 +317,7 @@ bool
 Evolver::isBounded(double largest) const
 {
   std::atomic<bool> bounded{true};
-  parallelBlocks(centers_, block_places, threads_, [&](auto begin, auto end) {
+  parallelBlocks(centers_, evolved_places, threads_, [&](auto begin, auto end) {
     for (std::size_t i = begin; i < end; ++i)
       if (!(std::abs(phi_[i]) <= largest))
         bounded = false;
@@ -348,7 +348,7 @@ Evolver::summarize() const
   // Block by block, in one order for any number of threads.
   const auto parts =
       parallelGather<Sums>(band_.centers.size(),
-                           block_places,
+                           evolved_places,
                            threads_,
                            [&](auto begin, auto end, auto& found) {
                              Sums sums;

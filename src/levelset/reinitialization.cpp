@@ -16,9 +16,9 @@ namespace pcl_uvol {
 
 namespace {
 
-constexpr std::size_t block_groups = 64, block_places = 1024;
+constexpr std::size_t distance_groups = 64, distance_places = 1024;
 
-const KernelTable<const EvolutionKernels*> kernel_table{
+const KernelTable<const EvolutionKernels*> distance_kernels{
     &baseline::evolution_kernels, &avx2::evolution_kernels, &avx512::evolution_kernels};
 
 } // namespace
@@ -103,16 +103,18 @@ distanceToZeroLevel(const Band& band,
     else
       distance[place] = std::copysign(length, phi[sample]);
   };
-  parallelBlocks(band.centers.size(), block_places, threads, [&](auto begin, auto end) {
-    NearestFinder finder(*surface, 1);
-    for (std::size_t i = begin; i < end; ++i)
-      measure(finder, i, band.centers[i]);
-  });
-  parallelBlocks(band.others.size(), block_places, threads, [&](auto begin, auto end) {
-    NearestFinder finder(*surface, 1);
-    for (std::size_t i = begin; i < end; ++i)
-      measure(finder, band.centerPlaces() + i, band.others[i]);
-  });
+  parallelBlocks(
+      band.centers.size(), distance_places, threads, [&](auto begin, auto end) {
+        NearestFinder finder(*surface, 1);
+        for (std::size_t i = begin; i < end; ++i)
+          measure(finder, i, band.centers[i]);
+      });
+  parallelBlocks(
+      band.others.size(), distance_places, threads, [&](auto begin, auto end) {
+        NearestFinder finder(*surface, 1);
+        for (std::size_t i = begin; i < end; ++i)
+          measure(finder, band.centerPlaces() + i, band.others[i]);
+      });
   return distance;
 }
 
@@ -145,8 +147,8 @@ relaxToDistance(const Band& band,
         next.data(),
         slope.data()};
     parallelBlocks(
-        band.stencils.groups(), block_groups, threads, [&](auto begin, auto end) {
-          kernel_table.get()->relaxToDistance(step, begin, end);
+        band.stencils.groups(), distance_groups, threads, [&](auto begin, auto end) {
+          distance_kernels.get()->relaxToDistance(step, begin, end);
         });
     now.swap(next);
   }

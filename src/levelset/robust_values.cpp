@@ -16,7 +16,7 @@ namespace pcl_uvol {
 
 namespace {
 
-constexpr std::size_t block_samples = 256;
+constexpr std::size_t spike_block = 256;
 
 constexpr SpikeBounds spike_bounds{level_set.spike_deviations,
                                    level_set.most_companions};
@@ -46,7 +46,7 @@ findSpikes(const SampleSet& samples,
            unsigned threads)
 {
   return parallelGather<Spike>(
-      among.size(), block_samples, threads, [&](auto begin, auto end, auto& found) {
+      among.size(), spike_block, threads, [&](auto begin, auto end, auto& found) {
         NearestFinder finder(samples, k + 1);
         std::vector<float> others;
         float length = 1.0f;

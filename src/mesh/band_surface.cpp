@@ -16,7 +16,7 @@ namespace pcl_uvol::detail {
 
 namespace {
 
-constexpr std::size_t block_cells = 1u << 10, block_vertices = 1u << 10;
+constexpr std::size_t band_cells = 1u << 10, band_vertices = 1u << 10;
 
 /** Share of the distance of two cells: a surface farther from the line between them is
  * that of another sheet. */
@@ -29,7 +29,7 @@ constexpr int size_rounds = 5;
 constexpr int repair_rounds = 4;
 
 /** Cosine of the angle between normals of fits that tell of one smooth sheet. */
-constexpr double least_agreement = 0.7;
+constexpr double least_band_agreement = 0.7;
 
 constexpr std::uint32_t no_cell = std::numeric_limits<std::uint32_t>::max();
 
@@ -94,7 +94,7 @@ private:
     }
     mesh.vertices.resize(pairs_.size());
     parallelBlocks(
-        pairs_.size(), block_vertices, input_.threads, [&](auto begin, auto end) {
+        pairs_.size(), band_vertices, input_.threads, [&](auto begin, auto end) {
           for (std::size_t i = begin; i < end; ++i)
             mesh.vertices[i] = makeVertex(pairs_[i]);
           tellPairs(begin, end);
@@ -193,7 +193,8 @@ private:
       for (const std::uint32_t cell : {vertex.pair.lower, vertex.pair.higher})
         if (vertex.is_on_surface && values_.isInBand(cell)) {
           const BandCell& own = values_.getCell(cell);
-          if (!own.has_foot || own.normal.dot(vertex.foot.normal) < least_agreement)
+          if (!own.has_foot ||
+              own.normal.dot(vertex.foot.normal) < least_band_agreement)
             is_smooth[values_.placeOf(cell)] = false;
         }
     return is_smooth;
@@ -262,7 +263,7 @@ private:
     const std::vector<std::uint32_t>& band = values_.getBand();
     pairs_ = parallelGather<CellPair>(
         band.size(),
-        block_cells,
+        band_cells,
         input_.threads,
         [&](std::size_t begin, std::size_t end, std::vector<CellPair>& pairs) {
           std::vector<std::uint32_t> touching;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/cell_tiling.h"
 
+#include "common/constants.h"
+
 #include <algorithm>
 #include <limits>
 #include <utility>
@@ -9,8 +11,6 @@ namespace pcl_uvol::detail {
 
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
-
 /** Cells that are kept: with their bounds they stay within a core's own memory. A power
  * of two, since cells are kept by the last bits of their numbers. */
 constexpr std::uint32_t kept_cells = 1u << 10;
@@ -18,7 +18,7 @@ constexpr std::uint32_t kept_cells = 1u << 10;
 CellBound
 outerBound(bool is_high)
 {
-  return {{is_high ? infinity : -infinity, 0}, {0, 0, 0, 0}};
+  return {{is_high ? infinity<float> : -infinity<float>, 0}, {0, 0, 0, 0}};
 }
 
 bool
@@ -129,7 +129,7 @@ CellTiling::longestSideAround(std::uint32_t sample) const
     if (!isOuter(cell.low[axis]) && !isOuter(cell.high[axis]))
       longest = std::max(
           longest, cell.high[axis].plane.coordinate - cell.low[axis].plane.coordinate);
-  return longest > 0.0f ? longest_side * longest : infinity;
+  return longest > 0.0f ? longest_side * longest : infinity<float>;
 }
 
 KdNode

@@ -12,7 +12,7 @@ namespace {
 
 /** Cosine of the angle between normals, and sine of that between a normal and the plane
  * at right angles to the edge, beyond which an edge stays straight. @{ */
-constexpr double least_agreement = 0.5, steepest = 0.7071067811865476;
+constexpr double least_bend_agreement = 0.5, steepest = 0.7071067811865476;
 /** @} */
 
 /** Share of the bulge of a triangle, and of its area, per square and per fourth power
@@ -40,7 +40,7 @@ isBent(const SurfaceCorner& a, const SurfaceCorner& b)
 {
   const Eigen::Vector3d edge = b.place - a.place;
   const double most = steepest * edge.norm();
-  return a.normal.dot(b.normal) >= least_agreement &&
+  return a.normal.dot(b.normal) >= least_bend_agreement &&
          std::abs(edge.dot(a.normal)) <= most && std::abs(edge.dot(b.normal)) <= most;
 }
 

@@ -17,7 +17,7 @@ namespace pcl_uvol::detail {
 
 namespace {
 
-constexpr std::size_t block_vertices = 1u << 10;
+constexpr std::size_t remeshed_vertices = 1u << 10;
 
 /** Share of the way to the mean of the neighbours, per round of smoothing. */
 constexpr double relaxation = 0.7;
@@ -28,10 +28,10 @@ constexpr double shortest_edge = 0.4, longest_edge = 1.4;
 
 /** Share of the local length: a vertex that glides farther may have met another sheet.
  */
-constexpr double farthest_move = 2.0;
+constexpr double farthest_vertex_move = 2.0;
 
 /** Cosine of 60 degrees, between a triangle and its vertices' normals. */
-constexpr double least_agreement = 0.5;
+constexpr double least_flip_agreement = 0.5;
 
 /** A vertex of fewer neighbours would fold. */
 constexpr std::size_t least_neighbors = 4;
@@ -70,16 +70,17 @@ public:
   {
     std::vector<Foot> moved(mesh_.vertices.size());
     for (int round = 0; round < rounds; ++round) {
-      parallelBlocks(moved.size(), block_vertices, threads_, [&](auto begin, auto end) {
-        std::vector<std::uint32_t> around;
-        std::vector<Foot> feet;
-        for (std::size_t i = begin; i < end; ++i) {
-          const auto vertex = static_cast<std::uint32_t>(i);
-          moved[i] = edges_.firstOf(vertex) == HalfEdges::none
-                         ? mesh_.vertices[i].foot
-                         : glide(vertex, around, feet);
-        }
-      });
+      parallelBlocks(
+          moved.size(), remeshed_vertices, threads_, [&](auto begin, auto end) {
+            std::vector<std::uint32_t> around;
+            std::vector<Foot> feet;
+            for (std::size_t i = begin; i < end; ++i) {
+              const auto vertex = static_cast<std::uint32_t>(i);
+              moved[i] = edges_.firstOf(vertex) == HalfEdges::none
+                             ? mesh_.vertices[i].foot
+                             : glide(vertex, around, feet);
+            }
+          });
       for (std::size_t i = 0; i < moved.size(); ++i)
         mesh_.vertices[i].foot = moved[i];
       step_.advance(parts_of_pass);
@@ -228,7 +229,7 @@ private:
     way = keepWithin(own.sides, way);
     const Foot moved = footBelow(vertex, own.foot.place + way, around, feet);
     const bool is_near =
-        (moved.place - own.foot.place).norm() < farthest_move * own.size &&
+        (moved.place - own.foot.place).norm() < farthest_vertex_move * own.size &&
         mesh_.isWithinBox(moved.place);
     return is_near ? moved : own.foot;
   }
@@ -327,7 +328,7 @@ private:
     for (const std::uint32_t end : {edges_.originOf(edge), edges_.targetOf(edge)})
       edges_.forEachAround(end, [&](HalfEdge out) {
         if (out / 3 != edge / 3 && out / 3 != edges_.twinOf(edge) / 3)
-          bad += agreementOf(mesh_.triangles[out / 3], out) < least_agreement;
+          bad += agreementOf(mesh_.triangles[out / 3], out) < least_flip_agreement;
       });
     return bad;
   }
@@ -335,7 +336,7 @@ private:
   bool
   isBad(HalfEdge edge) const
   {
-    return agreementOf(mesh_.triangles[edge / 3], edge) < least_agreement;
+    return agreementOf(mesh_.triangles[edge / 3], edge) < least_flip_agreement;
   }
 
   /** The agreement of a triangle in the region of an edge. */
@@ -357,11 +358,11 @@ private:
       return false;
     const double before = std::min(agreementOf(mesh_.triangles[edge / 3], edge),
                                    agreementOf(mesh_.triangles[twin / 3], edge));
-    const bool is_bad = before < least_agreement;
+    const bool is_bad = before < least_flip_agreement;
     if (!is_bad && !isAgainstDelaunay(a, b, c, d))
       return false;
     const double after = std::min(agreementOf(first, edge), agreementOf(second, edge));
-    if (is_bad ? after <= before : after < least_agreement)
+    if (is_bad ? after <= before : after < least_flip_agreement)
       return false;
     for (const std::uint32_t end : {a, b}) {
       edges_.findAround(end, around_);

@@ -12,7 +12,7 @@ namespace pcl_uvol {
 
 namespace {
 
-constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t no_face = std::numeric_limits<std::uint32_t>::max();
 
 /** Connected pieces of equal label on a triangulated surface, each a disc. */
 class Pieces {
@@ -20,11 +20,11 @@ public:
   Pieces(const std::vector<Triangle>& triangles,
          const std::vector<std::uint32_t>& regions)
       : triangles_(triangles)
-      , piece_of_(regions.size(), none)
+      , piece_of_(regions.size(), no_face)
   {
     connect(regions.size());
     for (std::uint32_t vertex = 0; vertex < regions.size(); ++vertex)
-      if (piece_of_[vertex] == none && neighborsOf(vertex).first != nullptr) {
+      if (piece_of_[vertex] == no_face && neighborsOf(vertex).first != nullptr) {
         regions_.push_back(regions[vertex]);
         grow(vertex, regions);
       }
@@ -102,7 +102,7 @@ private:
     for (std::size_t i = 0; i < found.size(); ++i) {
       const Range range = neighborsOf(found[i]);
       for (const std::uint32_t* other = range.first; other != range.second; ++other)
-        if (piece_of_[*other] == none && regions[*other] == regions[seed]) {
+        if (piece_of_[*other] == no_face && regions[*other] == regions[seed]) {
           piece_of_[*other] = piece;
           found.push_back(*other);
         }
@@ -228,7 +228,7 @@ makeClusterHull(const std::vector<Triangle>& surface,
   const auto& piece_of = pieces.getPieces();
   ClusterHull hull;
   hull.split_pieces = pieces.splits();
-  std::vector<std::uint32_t> number_of(pieces.regions().size(), none);
+  std::vector<std::uint32_t> number_of(pieces.regions().size(), no_face);
   for (const Triangle& triangle : surface) {
     Triangle corners;
     for (std::size_t i = 0; i < 3; ++i)
@@ -237,7 +237,7 @@ makeClusterHull(const std::vector<Triangle>& surface,
         corners[2] == corners[0])
       continue;
     for (std::uint32_t& corner : corners) {
-      if (number_of[corner] == none) {
+      if (number_of[corner] == no_face) {
         number_of[corner] = static_cast<std::uint32_t>(hull.regions.size());
         hull.regions.push_back(pieces.regions()[corner]);
       }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "multivariate/point_tree.h"
 
+#include "common/constants.h"
 #include "common/parallel.h"
 #include "multivariate/point_order.h"
 
@@ -10,8 +11,6 @@
 namespace pcl_uvol {
 
 namespace {
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 /** Queries of a block of a parallel loop. */
 constexpr std::size_t block_queries = 1u << 10;
@@ -40,7 +39,7 @@ void
 PointTree::addPoints(const std::vector<float>& rows)
 {
   Level level{size(), {}, {}};
-  level.low.assign(blocksOf(level.items) * columns_ * lanes, infinity);
+  level.low.assign(blocksOf(level.items) * columns_ * lanes, infinity<float>);
   for (std::size_t i = 0; i < level.items; ++i)
     for (std::size_t axis = 0; axis < columns_; ++axis)
       level.low[(i / lanes * columns_ + axis) * lanes + i % lanes] =
@@ -54,7 +53,7 @@ PointTree::addBoxes(unsigned threads)
   const Level& below = levels_.back();
   const std::vector<float>& below_high = below.high.empty() ? below.low : below.high;
   Level level{blocksOf(below.items), {}, {}};
-  level.low.assign(blocksOf(level.items) * columns_ * lanes, infinity);
+  level.low.assign(blocksOf(level.items) * columns_ * lanes, infinity<float>);
   level.high = level.low;
   parallelBlocks(level.items, block_queries, threads, [&](auto begin, auto end) {
     for (std::size_t i = begin; i < end; ++i)
@@ -149,7 +148,7 @@ struct NearestVisitor {
   std::uint32_t* places;
   float* sq_dists;
   std::size_t found = 0;
-  float sq_reach = infinity;
+  float sq_reach = infinity<float>;
 
   bool
   reaches(std::size_t, std::size_t, float sq_dist) const
@@ -207,7 +206,7 @@ OutsideSearch::OutsideSearch(const PointTree& tree, const std::vector<float>& sq
     const std::vector<float>& below =
         level == 1 ? sq_cores_ : least_sq_cores_[level - 1];
     std::vector<float>& least = least_sq_cores_[level];
-    least.assign(tree.items(level), infinity);
+    least.assign(tree.items(level), infinity<float>);
     for (std::size_t i = 0; i < below.size(); ++i) {
       float& box = least[i / PointTree::lanes];
       box = std::min(box, below[i]);

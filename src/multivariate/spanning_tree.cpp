@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "multivariate/spanning_tree.h"
 
+#include "common/constants.h"
 #include "common/parallel.h"
 #include "multivariate/point_tree.h"
 #include <pcl_uvol/common/exceptions.h>
@@ -16,23 +17,22 @@ namespace pcl_uvol {
 
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr std::uint32_t none = OutsideSearch::none;
+constexpr std::uint32_t no_point = OutsideSearch::none;
 
 /** Places of a block of a parallel loop. */
 constexpr std::size_t block_places = 1u << 10;
 
 /** Nearest points that are looked up at least: the more, the fewer searches in the
  * rounds to come. */
-constexpr std::size_t fewest_listed = 8;
+constexpr std::size_t fewest_neighbors = 8;
 
 /** Level of the boxes, of 256 points, that a search starts from. */
 constexpr std::size_t group_level = 2;
 
 /** An edge between places. */
 struct Candidate {
-  float sq_weight = infinity;
-  std::uint32_t a = none, b = none;
+  float sq_weight = infinity<float>;
+  std::uint32_t a = no_point, b = no_point;
 
   bool
   operator<(const Candidate& other) const
@@ -60,7 +60,7 @@ public:
       , parents_(tree.size())
       , components_(tree.size())
       , sizes_(tree.size())
-      , outside_(tree.size(), {none, 0.0f})
+      , outside_(tree.size(), {no_point, 0.0f})
       , sq_bounds_(new std::atomic<float>[tree.size()])
   {
     std::iota(parents_.begin(), parents_.end(), 0u);
@@ -98,7 +98,7 @@ private:
     for (std::uint32_t i = 0; i < components_.size(); ++i) {
       components_[i] = findRoot(i);
       ++sizes_[components_[i]];
-      sq_bounds_[i].store(infinity, std::memory_order_relaxed);
+      sq_bounds_[i].store(infinity<float>, std::memory_order_relaxed);
     }
     search_.setComponents(components_);
     std::vector<std::uint32_t> sizes;
@@ -141,7 +141,7 @@ private:
     const float sq_reach = nearest_.sq_dists[end - 1];
     if (best.sq_weight <= sq_reach)
       return best;
-    return {none, std::max(sq_reach, outside_[i].sq_weight)};
+    return {no_point, std::max(sq_reach, outside_[i].sq_weight)};
   }
 
   /** What is known from the lists, and from former rounds: components only grow, so
@@ -155,12 +155,12 @@ private:
         if (isWaiting(i))
           continue;
         OutsideSearch::Found& found = outside_[i];
-        if (found.place == none || components_[found.place] == components_[i]) {
-          found.place = none;
+        if (found.place == no_point || components_[found.place] == components_[i]) {
+          found.place = no_point;
           if (found.sq_weight <= nearest_.sq_dists[(i + 1) * nearest_.per_place - 1])
             found = findListed(i);
         }
-        if (found.place != none)
+        if (found.place != no_point)
           lowerTo(sq_bounds_[components_[i]], found.sq_weight);
       }
     });
@@ -181,7 +181,7 @@ private:
   bool
   needsSearch(std::size_t i) const
   {
-    return !isWaiting(i) && outside_[i].place == none &&
+    return !isWaiting(i) && outside_[i].place == no_point &&
            outside_[i].sq_weight <=
                sq_bounds_[components_[i]].load(std::memory_order_relaxed);
   }
@@ -207,7 +207,7 @@ private:
     if (i == end)
       return;
     const std::uint32_t component = search_.sharedComponent(level, item);
-    if (component != none) {
+    if (component != no_point) {
       tree_.copyLow(level, item, low);
       tree_.copyHigh(level, item, high);
       if (!search_.mayReach(level, item, {low, high}, sq_bounds_[component])) {
@@ -239,7 +239,7 @@ private:
   void
   raiseLeast(OutsideSearch::Found& known, std::uint32_t component) const
   {
-    if (known.place == none)
+    if (known.place == no_point)
       known.sq_weight = std::max(known.sq_weight,
                                  sq_bounds_[component].load(std::memory_order_relaxed));
   }
@@ -250,7 +250,7 @@ private:
     std::vector<Candidate> shortest(tree_.size());
     for (std::uint32_t i = 0; i < tree_.size(); ++i) {
       const OutsideSearch::Found& found = outside_[i];
-      if (isWaiting(i) || found.place == none)
+      if (isWaiting(i) || found.place == no_point)
         continue;
       Candidate& best = shortest[components_[i]];
       best = std::min(
@@ -258,7 +258,7 @@ private:
     }
     shortest.erase(std::remove_if(shortest.begin(),
                                   shortest.end(),
-                                  [](const Candidate& c) { return c.a == none; }),
+                                  [](const Candidate& c) { return c.a == no_point; }),
                    shortest.end());
     return shortest;
   }
@@ -313,7 +313,7 @@ measureExtents(const std::vector<float>& values, std::size_t columns)
 {
   std::vector<double> extents;
   for (std::size_t column = 0; column < columns; ++column) {
-    float low = infinity, high = -infinity;
+    float low = infinity<float>, high = -infinity<float>;
     for (std::size_t i = column; i < values.size(); i += columns) {
       low = std::min(low, values[i]);
       high = std::max(high, values[i]);
@@ -356,7 +356,7 @@ spanningTree(const std::vector<float>& values,
   if (count < 2)
     return {};
   const std::size_t reach = std::min(neighbors, count - 1);
-  const std::size_t listed = std::min(std::max(reach, fewest_listed), count - 1);
+  const std::size_t listed = std::min(std::max(reach, fewest_neighbors), count - 1);
   std::vector<float> scaled = values;
   const int exponent = scale(scaled, columns, threads);
   std::unique_ptr<const PointTree> tree;

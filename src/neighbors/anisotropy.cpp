@@ -19,7 +19,7 @@ constexpr double low_percentile = 0.05;
 constexpr double high_percentile = 0.95;
 
 /** Samples around which spacings are looked at: medians of so many are good to 2 %. */
-constexpr std::size_t most_looks = 4096;
+constexpr std::size_t most_places = 4096;
 
 float
 percentile(std::vector<float>& values, double fraction)
@@ -34,7 +34,7 @@ percentile(std::vector<float>& values, double fraction)
 std::optional<Eigen::Array3f>
 findSpacings(const SampleSet& samples)
 {
-  const std::size_t step = (samples.size() + most_looks - 1) / most_looks;
+  const std::size_t step = (samples.size() + most_places - 1) / most_places;
   LocalMetricFinder metrics(samples);
   std::vector<float> spacings[3];
   for (std::size_t i = 0; i < samples.size(); i += step) {

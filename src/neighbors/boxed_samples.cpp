@@ -12,7 +12,7 @@
 namespace pcl_uvol {
 namespace {
 
-constexpr std::size_t block_samples = 1024;
+constexpr std::size_t boxed_block = 1024;
 
 /** A reach that was too short grows to what was seen to be needed, and a little more.
  */
@@ -121,7 +121,7 @@ BoxedSamples::findImages(double reach, unsigned threads) const
 {
   return parallelGather<PeriodicImage>(
       use_.size(),
-      block_samples,
+      boxed_block,
       threads,
       [&](std::size_t begin, std::size_t end, std::vector<PeriodicImage>& found) {
         for (std::size_t i = begin; i < end; ++i)

@@ -16,7 +16,7 @@ namespace {
 constexpr double cube_size = 256.0;
 
 /** Share of squared distances: rounding of vertices. */
-constexpr double slack = 1e-11;
+constexpr double vertex_slack = 1e-11;
 
 /** What is farther than the farthest of the nearest in float may be that much nearer.
  */
@@ -82,7 +82,7 @@ CellSearch::findInBall(const Vector3d& vertex, std::uint32_t& found) const
   const std::vector<Position>& positions = samples_.getPositions();
   const Query center{
       {place_.x[0] + vertex[0], place_.x[1] + vertex[1], place_.x[2] + vertex[2]}};
-  double sq_least = (1.0 - slack) * vertex.squaredNorm();
+  double sq_least = (1.0 - vertex_slack) * vertex.squaredNorm();
   bool is_found = false;
   const auto sqGap = [&](const KdNode& node) {
     const KdBox& box = tree.getBox(node);

@@ -15,7 +15,7 @@ namespace {
 
 /** Share of the cell's volume, and of the distance of its farthest neighbour: what sums
  * that are to vanish may be off by rounding. */
-constexpr double rounding = 1e-11;
+constexpr double sum_error = 1e-11;
 
 /** Tetrahedra of a hole with that many corners; those of random samples have about
  * three for two corners. More than a few for each are a sign of confusion. */
@@ -85,10 +85,10 @@ DelaunayCavity::measure(const SimpleCell& cell, const double* ratios, double* vo
     moment += volumes[face] * cell.getFace(face).offset;
     farthest = std::max(farthest, sq_length);
   }
-  return std::abs(sum - volume) <= rounding * volume &&
-         moment.squaredNorm() <= rounding * rounding * volume * volume * farthest &&
+  return std::abs(sum - volume) <= sum_error * volume &&
+         moment.squaredNorm() <= sum_error * sum_error * volume * volume * farthest &&
          std::all_of(volumes, volumes + count_, [&](double part) {
-           return part >= -rounding * volume;
+           return part >= -sum_error * volume;
          });
 }
 

@@ -15,7 +15,7 @@ namespace pcl_uvol {
 
 namespace {
 
-constexpr std::size_t block_samples = 1u << 9;
+constexpr std::size_t face_block = 1u << 9;
 
 /** Samples that share a copy of those around them. */
 constexpr std::size_t group_samples = 16;
@@ -25,7 +25,7 @@ constexpr std::size_t group_samples = 16;
 constexpr double least_area = 1e-12;
 
 /** The rows of consecutive samples. */
-struct Rows {
+struct FaceRows {
   std::vector<std::uint32_t> sizes, indices;
 };
 
@@ -114,11 +114,11 @@ ExactNeighbors::ExactNeighbors(const SampleSet& samples,
   if (samples.getTrees().size() != 1)
     throw InvalidArgument("Exact natural neighbours need all samples in one piece.");
   StepTimer step(report, "voronoi_cells", samples.size());
-  std::vector<Rows> blocks((samples.size() + block_samples - 1) / block_samples);
+  std::vector<FaceRows> blocks((samples.size() + face_block - 1) / face_block);
   parallelBlocks(
-      samples.size(), block_samples, threads, [&](std::size_t begin, std::size_t end) {
+      samples.size(), face_block, threads, [&](std::size_t begin, std::size_t end) {
         FaceFinder finder(samples, begin, end);
-        Rows& rows = blocks[begin / block_samples];
+        FaceRows& rows = blocks[begin / face_block];
         for (std::size_t i = begin; i < end; ++i) {
           const auto& found = finder.find(static_cast<std::uint32_t>(i));
           rows.sizes.push_back(static_cast<std::uint32_t>(found.size()));
@@ -128,7 +128,7 @@ ExactNeighbors::ExactNeighbors(const SampleSet& samples,
       });
   faces_.offsets.reserve(samples.size() + 1);
   faces_.offsets.push_back(0);
-  for (const Rows& rows : blocks) {
+  for (const FaceRows& rows : blocks) {
     for (const std::uint32_t size : rows.sizes)
       faces_.offsets.push_back(faces_.offsets.back() + size);
     faces_.indices.insert(
@@ -157,7 +157,7 @@ ExactNeighbors::findCrossing(const NodeRanges& ranges,
   };
   // Blocks come in order, and so do their samples.
   return parallelGather<std::uint32_t>(
-      faces_.size(), block_samples, threads, [&](auto begin, auto end, auto& found) {
+      faces_.size(), face_block, threads, [&](auto begin, auto end, auto& found) {
         std::vector<std::uint32_t> others;
         for (std::size_t i = begin; i < end; ++i) {
           const auto sample = static_cast<std::uint32_t>(i);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "neighbors/local_metric.h"
 
+#include "common/constants.h"
 #include "common/dispatch.h"
 
 #include <Eigen/Eigenvalues>
@@ -13,8 +14,6 @@
 namespace pcl_uvol {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 using Solver = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>;
 
@@ -63,7 +62,7 @@ between(const Position& from, const Position& to)
   return offset;
 }
 
-const KernelTable<const MetricKernels*> kernel_table{
+const KernelTable<const MetricKernels*> line_kernels{
     &baseline::metric_kernels, &avx2::metric_kernels, &avx512::metric_kernels};
 
 Eigen::Matrix3d
@@ -95,7 +94,7 @@ LineMoments::LineMoments(const std::vector<float> (&offsets)[3], std::size_t cen
   std::vector<float> lines[3], sq_lengths(count);
   for (auto& coordinate : lines)
     coordinate.resize(count);
-  const MetricKernels& kernels = *kernel_table.get();
+  const MetricKernels& kernels = *line_kernels.get();
   Moments moments{};
   for (std::size_t i = 0; i < central; ++i) {
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -231,7 +230,7 @@ LocalMetricFinder::setMetric(const LineMoments& lines)
   // float.
   if (!(squares.minCoeff() > 0.0) || !squares.allFinite()) {
     metric_.setIdentity();
-    return infinity;
+    return infinity<double>;
   }
   spacings_ = axes * squares.asDiagonal() * axes.transpose();
   ratio_ = computeRatio(squares);
@@ -265,7 +264,7 @@ LocalMetricFinder::lookAround(std::uint32_t sample)
 {
   metric_.setIdentity();
   spacings_.setIdentity();
-  ratio_ = infinity;
+  ratio_ = infinity<double>;
   searched_.clear();
   if (is_flat_)
     return false;
@@ -278,7 +277,7 @@ LocalMetricFinder::lookAround(std::uint32_t sample)
   if (stretchAcrossLayer())
     return false;
   const LineMoments lines(offsets_, std::min(central_samples, nearest_.size()));
-  return !stretchAcross(lines) && setMetric(lines) < infinity;
+  return !stretchAcross(lines) && setMetric(lines) < infinity<double>;
 }
 
 bool
@@ -287,7 +286,7 @@ LocalMetricFinder::hasLayers() const
   const Solver eigen(spacings_);
   const Eigen::Vector3d across =
       eigen.eigenvectors().col(2) / std::sqrt(eigen.eigenvalues()[2]);
-  double first = infinity, lowest = 0.0, highest = 0.0;
+  double first = infinity<double>, lowest = 0.0, highest = 0.0;
   for (const auto& neighbor : nearest_) {
     const double height = across.dot(neighbor.second);
     if (std::abs(height) > half_layer)
@@ -316,9 +315,9 @@ LocalMetricFinder::lookInMetric(std::uint32_t sample, double sq_limit, bool may_
   gather(sample, row.data(), row.size());
   searched_.push_back(finder_.getSearched());
   if (may_stretch && stretchAcrossLayer())
-    return infinity;
+    return infinity<double>;
   const LineMoments lines(offsets_, std::min(central_samples, nearest_.size()));
-  return stretchAcross(lines) ? infinity : setMetric(lines);
+  return stretchAcross(lines) ? infinity<double> : setMetric(lines);
 }
 
 bool
@@ -334,7 +333,7 @@ LocalMetricFinder::search(std::uint32_t sample)
     if (ratio < even_ratio)
       return is_seen_ || hasLayers();
   }
-  ratio_ = infinity;
+  ratio_ = infinity<double>;
   return false;
 }
 

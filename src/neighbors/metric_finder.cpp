@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "neighbors/metric_finder.h"
 
+#include "common/constants.h"
 #include "common/dispatch.h"
 
 #include <Eigen/Eigenvalues>
@@ -15,9 +16,7 @@ namespace pcl_uvol {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-const KernelTable<const MetricKernels*> kernel_table{
+const KernelTable<const MetricKernels*> metric_kernel_table{
     &baseline::metric_kernels, &avx2::metric_kernels, &avx512::metric_kernels};
 
 MetricRows
@@ -32,7 +31,7 @@ toRows(const Eigen::Matrix3d& matrix)
 
 /** Room for rounding: a box must not seem farther than a sample in it. The squares of
  * the metric are known to 1e-16 of the largest of them. */
-constexpr double slack = 1.0 + 1e-6;
+constexpr double limit_slack = 1.0 + 1e-6;
 
 /** Samples per neighbour that are kept for the points to come; where there are more,
  * each point is searched for on its own. */
@@ -44,7 +43,7 @@ MetricFinder::MetricFinder(const SampleSet& samples, std::size_t k, bool shares)
     : samples_(samples)
     , k_(k)
     , shares_(shares)
-    , kernels_(kernel_table.get())
+    , kernels_(metric_kernel_table.get())
 {
 }
 
@@ -85,7 +84,7 @@ MetricFinder::findBounds(const KdBox& left,
 bool
 MetricFinder::mayHold(double sq_bound) const
 {
-  return sq_bound <= slack * sq_farthest_;
+  return sq_bound <= limit_slack * sq_farthest_;
 }
 
 double
@@ -120,7 +119,8 @@ MetricFinder::measureBucket(const KdNode& bucket)
       nearest_.emplace_back(sq_dists[i], bucket.begin + i);
   has_copy_ = has_copy_ && nearest_.size() <= most_copied * k_;
   // Sorting out costs more than looking at some samples too many.
-  if (!has_copy_ && nearest_.size() >= k_ + (sq_farthest_ == infinity ? 0 : k_ / 4))
+  if (!has_copy_ &&
+      nearest_.size() >= k_ + (sq_farthest_ == infinity<double> ? 0 : k_ / 4))
     keepNearest();
 }
 
@@ -174,7 +174,7 @@ MetricFinder::isEmpty(const Position& point,
     std::array<double, KdTree::bucket_samples> sq_dists;
     return measure(&samples_.getPositions()[bucket.begin],
                    bucket.count,
-                   sq_dists.data()) > slack * sq_farthest_;
+                   sq_dists.data()) > limit_slack * sq_farthest_;
   });
 }
 
@@ -198,15 +198,16 @@ MetricFinder::selectFromCopy()
   for (std::size_t i = 0; i < copied_.size(); ++i)
     nearest_.emplace_back(sq_dists_[i], copied_[i]);
   keepNearest();
-  return slack * (std::sqrt(sq_farthest_) + distanceInMetric(point_, copy_center_)) <=
+  return limit_slack *
+             (std::sqrt(sq_farthest_) + distanceInMetric(point_, copy_center_)) <=
          copy_radius_;
 }
 
 void
 MetricFinder::search(double sq_limit)
 {
-  sq_farthest_ = slack * sq_limit;
-  has_copy_ = shares_ && sq_limit < infinity;
+  sq_farthest_ = limit_slack * sq_limit;
+  has_copy_ = shares_ && sq_limit < infinity<double>;
   copy_center_ = point_;
   copy_radius_ = std::sqrt(sq_limit);
   nearest_.clear();

@@ -13,10 +13,10 @@ namespace pcl_uvol {
 
 namespace {
 
-constexpr std::size_t block_samples = 1u << 12;
+constexpr std::size_t angle_block = 1u << 12;
 
 /** The rows of consecutive samples. */
-struct Rows {
+struct AngleRows {
   std::vector<std::uint32_t> sizes, indices;
   std::uint64_t candidates = 0;
 };
@@ -70,11 +70,11 @@ computeNaturalNeighbors(const SampleSet& samples,
                         Report& report)
 {
   StepTimer step(report, "neighborhoods", samples.size());
-  std::vector<Rows> blocks((samples.size() + block_samples - 1) / block_samples);
+  std::vector<AngleRows> blocks((samples.size() + angle_block - 1) / angle_block);
   parallelBlocks(
-      samples.size(), block_samples, threads, [&](std::size_t begin, std::size_t end) {
+      samples.size(), angle_block, threads, [&](std::size_t begin, std::size_t end) {
         NeighborhoodFinder finder(samples, candidates, criterion);
-        Rows& rows = blocks[begin / block_samples];
+        AngleRows& rows = blocks[begin / angle_block];
         for (std::size_t i = begin; i < end; ++i) {
           const auto& neighbors = finder.find(static_cast<std::uint32_t>(i));
           rows.sizes.push_back(static_cast<std::uint32_t>(neighbors.size()));
@@ -88,7 +88,7 @@ computeNaturalNeighbors(const SampleSet& samples,
   graph.offsets.reserve(samples.size() + 1);
   graph.offsets.push_back(0);
   std::uint64_t candidate_count = 0;
-  for (const Rows& rows : blocks) {
+  for (const AngleRows& rows : blocks) {
     for (const std::uint32_t size : rows.sizes)
       graph.offsets.push_back(graph.offsets.back() + size);
     candidate_count += rows.candidates;
@@ -98,7 +98,7 @@ computeNaturalNeighbors(const SampleSet& samples,
     std::copy(blocks[begin].indices.begin(),
               blocks[begin].indices.end(),
               graph.indices.begin() +
-                  static_cast<std::ptrdiff_t>(graph.offsets[begin * block_samples]));
+                  static_cast<std::ptrdiff_t>(graph.offsets[begin * angle_block]));
   });
   report.count("candidates", candidate_count);
   report.count("neighbors", graph.indices.size());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "neighbors/nearest_finder.h"
 
+#include "common/constants.h"
 #include "common/dispatch.h"
 #include "neighbors/nearest_kernel.h"
 
@@ -12,7 +13,6 @@ namespace pcl_uvol {
 
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
 /** Room around points over the reach of the last search: what the next ones need, but
  * for one in a thousand of uniform samples. */
 constexpr float usual_room = 1.2f;
@@ -24,9 +24,9 @@ constexpr std::size_t least_crowd = 2000, crowd_per_neighbor = 100;
 /** Guesses of a limit between two distances by the growth of volumes. */
 constexpr int most_guesses = 8;
 /** Room for the rounding of a squared distance. */
-constexpr float slack = 1.0001f;
+constexpr float reach_slack = 1.0001f;
 
-const KernelTable<const NearestKernels*> kernel_table{
+const KernelTable<const NearestKernels*> nearest_kernel_table{
     &baseline::nearest_kernels, &avx2::nearest_kernels, &avx512::nearest_kernels};
 
 /** The least squared distance between two boxes. No squared distance between a point of
@@ -71,10 +71,11 @@ holds(const KdCell& cell, const KdBox& box, float distance)
 NearestFinder::NearestFinder(const SampleSet& samples, std::size_t k)
     : samples_(samples)
     , k_(k)
-    , kernels_(kernel_table.get())
+    , kernels_(nearest_kernel_table.get())
     , sq_dist_(KdTree::bucket_samples + kernel_room)
 {
-  startGroup({{{infinity, infinity, infinity}}, {{infinity, infinity, infinity}}});
+  startGroup({{{infinity<float>, infinity<float>, infinity<float>}},
+              {{infinity<float>, infinity<float>, infinity<float>}}});
 }
 
 void
@@ -118,7 +119,7 @@ NearestFinder::copyWithin(float sq_limit)
     return copyBelow(tree, tree.getRoot());
   };
   const auto& trees = samples_.getTrees();
-  return holds(own.getCell(), group_, slack * std::sqrt(sq_limit))
+  return holds(own.getCell(), group_, reach_slack * std::sqrt(sq_limit))
              ? copy_from(own)
              : std::all_of(trees.begin(), trees.end(), copy_from);
 }
@@ -188,7 +189,7 @@ NearestFinder::selectFromCopy(const Position& point)
   makeRoom(copied_.size());
   kernels_->measure(
       x_[0].data(), x_[1].data(), x_[2].data(), count, point.x, sq_dist_.data());
-  const float limit = count <= k_ ? infinity : limitOfNearest();
+  const float limit = count <= k_ ? infinity<float> : limitOfNearest();
   float* const sq_dist = found_sq_dist_.data();
   std::uint32_t* const samples = found_samples_.data();
   std::size_t kept = kernels_->keepWithin(
@@ -213,7 +214,7 @@ NearestFinder::limitOfNearest()
   // does, and ends at the k-th distance itself if others equal it.
   constexpr float smallest = std::numeric_limits<float>::min(),
                   largest = std::numeric_limits<float>::max();
-  float low = -1.0f, high = infinity;
+  float low = -1.0f, high = infinity<float>;
   float limit = std::clamp(reach_ * reach_, smallest, largest);
   const auto wanted = static_cast<float>(k_);
   for (int guess = 0;; ++guess) {
@@ -227,7 +228,7 @@ NearestFinder::limitOfNearest()
     limit *= growth * growth;
     if (guess < most_guesses && limit > low && limit < high)
       continue;
-    if (high == infinity)
+    if (high == infinity<float>)
       limit = std::min(2.0f * low, largest);
     else
       limit = low < 0.0f ? 0.0f : low + 0.5f * (high - low);
@@ -385,7 +386,7 @@ NearestFinder::find(const Position& point, float length)
   prepare(point, reach_);
   const bool has_copy = copy_ == Copy::Usual || copy_ == Copy::Enough;
   if (!has_copy || !selectFromCopy(point)) {
-    search(point, infinity);
+    search(point, infinity<float>);
     if (copy_ != Copy::Crowded)
       copy_ = copyForOthers() ? Copy::Enough : Copy::Crowded;
   }
@@ -397,7 +398,7 @@ NearestFinder::find(const Position& point, float length)
 NearestFinder::Row
 NearestFinder::findWithin(const Position& point, float radius)
 {
-  const float sq_radius = slack * radius * radius;
+  const float sq_radius = reach_slack * radius * radius;
   reach_ = radius;
   if (copy_ == Copy::Usual && sq_limit_ < sq_radius)
     startGroup(group_);

@@ -19,7 +19,7 @@ namespace pcl_uvol {
 namespace {
 
 constexpr int leaf_samples = 15; // PCL's choice, and the fastest here
-constexpr std::size_t block_samples = 256;
+constexpr std::size_t query_block = 256;
 
 void
 checkCount(std::size_t k)
@@ -113,38 +113,37 @@ computeNearestNeighbors(const SampleSet& samples,
   Index index(flann::Matrix<float>(positions, count, 3),
               flann::KDTreeSingleIndexParams(leaf_samples));
   index.buildIndex();
-  parallelBlocks(
-      count, block_samples, threads, [&](std::size_t begin, std::size_t end) {
-        const std::size_t found = row + 1; // each sample finds itself as well
-        std::vector<std::size_t> indices((end - begin) * found);
-        std::vector<float> sq_dists(indices.size());
-        flann::Matrix<std::size_t> index_rows(indices.data(), end - begin, found);
-        flann::Matrix<float> distance_rows(sq_dists.data(), end - begin, found);
-        flann::SearchParams search(flann::FLANN_CHECKS_UNLIMITED);
-        search.cores = 1;
-        search.use_heap = flann::FLANN_False;
-        index.knnSearch(flann::Matrix<float>(positions + 3 * begin, end - begin, 3),
-                        index_rows,
-                        distance_rows,
-                        found,
-                        search);
-        SortedRow sorted(count);
-        for (std::size_t i = begin; i < end; ++i) {
-          sorted.start(i);
-          for (std::size_t j = (i - begin) * found; j < (i - begin + 1) * found; ++j)
-            sorted.add(sq_dists[j], indices[j]);
-          const auto& neighbors = sorted.finish(row);
-          if (neighbors.size() < row)
-            throw InvalidArgument("Sample " + std::to_string(i) + " has only " +
-                                  std::to_string(neighbors.size()) + " of " +
-                                  std::to_string(row) +
-                                  " neighbours at a finite distance: scale the "
-                                  "coordinates.");
-          for (std::size_t j = 0; j < row; ++j)
-            graph.indices[i * row + j] = neighbors[j].second;
-        }
-        step.advance(end - begin);
-      });
+  parallelBlocks(count, query_block, threads, [&](std::size_t begin, std::size_t end) {
+    const std::size_t found = row + 1; // each sample finds itself as well
+    std::vector<std::size_t> indices((end - begin) * found);
+    std::vector<float> sq_dists(indices.size());
+    flann::Matrix<std::size_t> index_rows(indices.data(), end - begin, found);
+    flann::Matrix<float> distance_rows(sq_dists.data(), end - begin, found);
+    flann::SearchParams search(flann::FLANN_CHECKS_UNLIMITED);
+    search.cores = 1;
+    search.use_heap = flann::FLANN_False;
+    index.knnSearch(flann::Matrix<float>(positions + 3 * begin, end - begin, 3),
+                    index_rows,
+                    distance_rows,
+                    found,
+                    search);
+    SortedRow sorted(count);
+    for (std::size_t i = begin; i < end; ++i) {
+      sorted.start(i);
+      for (std::size_t j = (i - begin) * found; j < (i - begin + 1) * found; ++j)
+        sorted.add(sq_dists[j], indices[j]);
+      const auto& neighbors = sorted.finish(row);
+      if (neighbors.size() < row)
+        throw InvalidArgument("Sample " + std::to_string(i) + " has only " +
+                              std::to_string(neighbors.size()) + " of " +
+                              std::to_string(row) +
+                              " neighbours at a finite distance: scale the "
+                              "coordinates.");
+      for (std::size_t j = 0; j < row; ++j)
+        graph.indices[i * row + j] = neighbors[j].second;
+    }
+    step.advance(end - begin);
+  });
   return graph;
 }
 
@@ -165,7 +164,7 @@ computeNearestNeighbors(const SampleSet& samples,
   NeighborGraph graph;
   graph.offsets.assign(count + 1, 0);
   graph.indices = parallelGather<std::uint32_t>(
-      count, block_samples, threads, [&](auto begin, auto end, auto& block) {
+      count, query_block, threads, [&](auto begin, auto end, auto& block) {
         pcl::Indices found;
         std::vector<float> sq_dists;
         SortedRow sorted(count);

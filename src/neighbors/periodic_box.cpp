@@ -13,7 +13,7 @@ namespace {
 
 /** Share of a side: samples may lie so far outside of a box that rounding, or the last
  * step of a simulation, has taken them there. */
-constexpr double slack = 0.01;
+constexpr double side_slack = 0.01;
 
 /** Share of a side: where samples fill less of it, neighbours across the faces are
  * none. */
@@ -26,7 +26,7 @@ constexpr double most_fill = 1.5;
 double
 chooseLow(const SampleExtents& extents, std::size_t axis, double side, double origin)
 {
-  const double room = slack * side;
+  const double room = side_slack * side;
   for (const double low : {-origin, -origin - side / 2.0})
     if (extents.low[axis] >= low - room && extents.high[axis] <= low + side + room)
       return low;

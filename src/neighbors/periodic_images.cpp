@@ -14,7 +14,7 @@
 namespace pcl_uvol {
 namespace {
 
-constexpr std::size_t block_samples = 1024;
+constexpr std::size_t image_block = 1024;
 
 /** How far beyond the faces the neighbours of samples in the box lie, in the stretched
  * space; more than the reach where images do not suffice. */
@@ -41,11 +41,11 @@ measureNeed(const BoxedSamples& boxed,
   if (set->size() < how.neighbors)
     return std::numeric_limits<double>::infinity();
   StepTimer step(own, "images", set->size());
-  std::vector<double> needs((set->size() + block_samples - 1) / block_samples, 0.0);
-  parallelBlocks(set->size(), block_samples, threads, [&](auto begin, auto end) {
+  std::vector<double> needs((set->size() + image_block - 1) / image_block, 0.0);
+  parallelBlocks(set->size(), image_block, threads, [&](auto begin, auto end) {
     NearestFinder finder(*set, how.neighbors);
     float length = 1.0f;
-    double& need = needs[begin / block_samples];
+    double& need = needs[begin / image_block];
     for (std::size_t i = begin; i < end; ++i) {
       const std::uint32_t input = set->getInputIndex(i);
       const double depth = input < use.size()

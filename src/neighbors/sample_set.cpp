@@ -12,7 +12,7 @@ namespace pcl_uvol {
 
 namespace {
 
-constexpr std::size_t block_samples = 1u << 14;
+constexpr std::size_t set_block = 1u << 14;
 
 /** What became of points of a block. */
 struct Gathered {
@@ -31,10 +31,10 @@ gatherRecords(const float* xyz,
               Gathered& all)
 {
   std::vector<SampleRecord> records(use.size());
-  std::vector<Gathered> blocks((use.size() + block_samples - 1) / block_samples);
+  std::vector<Gathered> blocks((use.size() + set_block - 1) / set_block);
   parallelBlocks(
-      use.size(), block_samples, threads, [&](std::size_t begin, std::size_t end) {
-        Gathered& block = blocks[begin / block_samples];
+      use.size(), set_block, threads, [&](std::size_t begin, std::size_t end) {
+        Gathered& block = blocks[begin / set_block];
         for (std::size_t i = begin; i < end; ++i) {
           const float* const point = xyz + use[i] * stride;
           const Position raw{{point[0], point[1], point[2]}};
@@ -49,7 +49,7 @@ gatherRecords(const float* xyz,
       });
   auto end = records.begin();
   for (std::size_t i = 0; i < blocks.size(); ++i) {
-    const auto begin = records.begin() + static_cast<std::ptrdiff_t>(i * block_samples);
+    const auto begin = records.begin() + static_cast<std::ptrdiff_t>(i * set_block);
     const auto last = begin + static_cast<std::ptrdiff_t>(blocks[i].records);
     end = begin == end ? last : std::move(begin, last, end);
     all.non_finite += blocks[i].non_finite;
@@ -188,7 +188,7 @@ SampleSet::buildInUnit(const float* xyz,
   parts.positions.resize(records.size());
   set->input_indices_.resize(records.size());
   parallelBlocks(
-      records.size(), block_samples, threads, [&](std::size_t begin, std::size_t end) {
+      records.size(), set_block, threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
           parts.positions[i] = records[i].position;
           set->input_indices_[i] = records[i].input_index;

@@ -12,7 +12,7 @@ namespace pcl_uvol {
 
 namespace {
 
-constexpr std::size_t block_points = 1u << 14;
+constexpr std::size_t value_block = 1u << 14;
 
 } // namespace
 
@@ -28,7 +28,7 @@ readValues(const CloudView& cloud,
                         first.datatype == pcl::PCLPointField::FLOAT32 &&
                         frame == ValueFrame();
   parallelBlocks(
-      cloud.count, block_points, threads, [&](std::size_t begin, std::size_t end) {
+      cloud.count, value_block, threads, [&](std::size_t begin, std::size_t end) {
         if (is_plain) // most fields: without a call per value
           for (std::size_t i = begin; i < end; ++i)
             std::memcpy(&values[i], cloud.point(i) + first.offset, sizeof(float));
@@ -54,7 +54,7 @@ gatherValues(const SampleSet& samples,
   scalar.values.resize(samples.size());
   scalar.sources.resize(samples.size());
   parallelBlocks(
-      samples.size(), block_points, threads, [&](std::size_t begin, std::size_t end) {
+      samples.size(), value_block, threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
           scalar.sources[i] = samples.getInputIndex(i);
           scalar.values[i] = input_values[scalar.sources[i]];

@@ -17,7 +17,7 @@ namespace {
 
 using Solver = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>;
 
-constexpr std::size_t block_samples = 256;
+constexpr std::size_t look_block = 256;
 
 /** Samples that a summary looks at, at most. */
 constexpr std::size_t most_looks = 1024;
@@ -120,7 +120,7 @@ diagnoseSampling(const SampleSet& samples,
   Report report;
   report.progress = progress;
   StepTimer step(report, "sampling", found.size());
-  parallelBlocks(found.size(), block_samples, threads, [&](auto begin, auto end) {
+  parallelBlocks(found.size(), look_block, threads, [&](auto begin, auto end) {
     SamplingFinder finder(samples);
     for (std::size_t i = begin; i < end; ++i)
       found[i] = finder.find(static_cast<std::uint32_t>(i));
@@ -138,7 +138,7 @@ lookAtSome(const SampleSet& samples,
   const std::uint64_t step = (total + most_looks - 1) / most_looks;
   const std::uint64_t before = (begin + step - 1) / step; // that other parts look at
   std::vector<LocalSampling> found((begin + samples.size() + step - 1) / step - before);
-  parallelBlocks(found.size(), block_samples, threads, [&](auto first, auto last) {
+  parallelBlocks(found.size(), look_block, threads, [&](auto first, auto last) {
     SamplingFinder finder(samples);
     for (std::size_t i = first; i < last; ++i)
       found[i] = finder.find(static_cast<std::uint32_t>((before + i) * step - begin));

@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-const KernelTable<const CellKernels*> kernel_table{
+const KernelTable<const CellKernels*> cell_kernel_table{
     &baseline::cell_kernels, &avx2::cell_kernels, &avx512::cell_kernels};
 
 /** Share of the size of a cell: vertices that close to a plane may lie on either side
@@ -31,12 +31,12 @@ constexpr double most_reaches = 2.0 + 1e-9;
 
 /** Share of its surface that a closed cell's faces, as vectors, sum up to by rounding.
  */
-constexpr double rounding = 1e-11;
+constexpr double closing_error = 1e-11;
 
 } // namespace
 
 SimpleCell::SimpleCell()
-    : kernels_(kernel_table.get())
+    : kernels_(cell_kernel_table.get())
 {
 }
 
@@ -223,7 +223,7 @@ SimpleCell::measureFaces(double* ratios, Vector3d* moments) const
     area += ratios[face] * face_[face].length;
     sum += ratios[face] * face_[face].offset;
   }
-  return sum.squaredNorm() <= rounding * rounding * area * area;
+  return sum.squaredNorm() <= closing_error * closing_error * area * area;
 }
 
 bool

@@ -14,7 +14,7 @@ namespace pcl_uvol {
 
 namespace {
 
-constexpr std::size_t block_points = 1u << 14;
+constexpr std::size_t node_block = 1u << 14;
 
 /** A point in its cell: sorts by both. */
 struct Placed {
@@ -156,7 +156,7 @@ VoronoiGrid::VoronoiGrid(const GridShape& shape,
   {
     const StepTimer timer(report, "sites");
     placed = parallelGather<Placed>(
-        use.size(), block_points, threads, [&](auto begin, auto end, auto& found) {
+        use.size(), node_block, threads, [&](auto begin, auto end, auto& found) {
           for (std::size_t i = begin; i < end; ++i) {
             const float* const p = xyz + use[i] * stride;
             if (isFinite(p))

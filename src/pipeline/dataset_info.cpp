@@ -18,7 +18,7 @@ namespace pcl_uvol {
 
 namespace {
 
-constexpr std::size_t block_samples = 1u << 12;
+constexpr std::size_t info_block = 1u << 12;
 /** Samples in leaf order that are looked up in one box. */
 constexpr std::size_t expected_together = 8;
 
@@ -130,10 +130,7 @@ describePositions(const Dataset& dataset,
   std::vector<float> spacing(positions.size());
   StepTimer step(report, "spacing", positions.size());
   parallelBlocks(
-      positions.size(),
-      block_samples,
-      threads,
-      [&](std::size_t begin, std::size_t end) {
+      positions.size(), info_block, threads, [&](std::size_t begin, std::size_t end) {
         NearestFinder finder(*samples, 2); // every sample finds itself as well
         for (std::size_t i = begin; i < end; ++i) {
           if (i % expected_together == 0)

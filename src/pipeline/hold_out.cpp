@@ -22,7 +22,7 @@ namespace pcl_uvol {
 namespace {
 
 /** Samples to a block of work. */
-constexpr std::size_t block_samples = 256;
+constexpr std::size_t fold_block = 256;
 
 /** Samples that remained whose mean distance is the local spacing: of uniform random
  * samples of density 1 it is 0.87. */
@@ -299,7 +299,7 @@ holdOut(const std::shared_ptr<const Dataset>& samples,
       const std::size_t first = told[i].size();
       told[i].resize(first + division.left_out.size());
       parallelBlocks(division.left_out.size(),
-                     block_samples,
+                     fold_block,
                      threads,
                      [&](std::size_t begin, std::size_t end) {
                        askFor(question, begin, end, &told[i][first]);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "common/constants.h"
 #include "common/printable.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/render/renderer.h>
@@ -11,8 +12,6 @@
 namespace pcl_uvol {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /** Sine of the least angle between the upward direction and the line of sight. */
 constexpr double least_sine = 1e-6;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "render/camera_fit.h"
 
+#include "common/constants.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -12,11 +14,9 @@ namespace pcl_uvol {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
 /** Right, left, below and above of the image. */
-constexpr std::size_t sides = 4;
-using Sides = std::array<double, sides>;
+constexpr std::size_t frustum_sides = 4;
+using Sides = std::array<double, frustum_sides>;
 
 /** Largest values of linear functions over discs in the directions of a camera. */
 class Extremes {
@@ -24,7 +24,7 @@ public:
   /** \param slopes of the image's planes */
   explicit Extremes(const Sides& slopes)
   {
-    for (std::size_t side = 0; side < sides; ++side) {
+    for (std::size_t side = 0; side < frustum_sides; ++side) {
       const auto axis = static_cast<Eigen::Index>(side / 2);
       sq_lengths_[side] = 1.0 + slopes[side] * slopes[side];
       planes_[side] = Eigen::Vector3d(0.0, 0.0, -slopes[side]);
@@ -37,7 +37,7 @@ public:
   void
   add(const Eigen::Vector3d& center, double radius, const Eigen::Vector3d& normal)
   {
-    for (std::size_t side = 0; side < sides; ++side) {
+    for (std::size_t side = 0; side < frustum_sides; ++side) {
       const double across = planes_[side].dot(normal);
       const double sq_within = sq_lengths_[side] - across * across;
       extend(side,
@@ -58,7 +58,7 @@ public:
       const double along = plane.dot(axis);
       return height * along + distance * (plane - along * axis).norm();
     };
-    for (std::size_t side = 0; side < sides; ++side)
+    for (std::size_t side = 0; side < frustum_sides; ++side)
       extend(side, largest(planes_[side]) + radius * std::sqrt(sq_lengths_[side]));
     const Eigen::Vector3d forward = Eigen::Vector3d::UnitZ();
     nearest_ = std::min(nearest_, -largest(-forward) - radius);
@@ -92,7 +92,7 @@ private:
   }
 
   Sides sq_lengths_; ///< of planes_
-  std::array<Eigen::Vector3d, sides> planes_;
+  std::array<Eigen::Vector3d, frustum_sides> planes_;
   Sides beyond_;
   double nearest_ = std::numeric_limits<double>::infinity(), farthest_ = -nearest_;
 };

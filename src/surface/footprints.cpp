@@ -17,7 +17,7 @@ namespace pcl_uvol {
 
 namespace {
 
-constexpr std::size_t block_points = 1u << 12;
+constexpr std::size_t footprint_block = 1u << 12;
 /** Points that are looked up in a box in common. */
 constexpr std::size_t run_points = 16;
 
@@ -421,7 +421,7 @@ computeFootprints(const OrientedPoints& points, unsigned threads, Report& report
   const float typical_distance =
       std::max(extent / std::sqrt(static_cast<float>(samples.size())),
                std::numeric_limits<float>::min());
-  parallelBlocks(samples.size(), block_points, threads, [&](auto begin, auto end) {
+  parallelBlocks(samples.size(), footprint_block, threads, [&](auto begin, auto end) {
     FootprintFinder finder(points);
     for (std::size_t i = begin; i < end; ++i) {
       if ((i - begin) % run_points == 0)
@@ -436,7 +436,7 @@ computeFootprints(const OrientedPoints& points, unsigned threads, Report& report
   footprints.on_rim.resize(samples.size());
   footprints.bends.resize(samples.size());
   footprints.rims.resize(samples.size());
-  parallelBlocks(samples.size(), block_points, threads, [&](auto begin, auto end) {
+  parallelBlocks(samples.size(), footprint_block, threads, [&](auto begin, auto end) {
     for (std::size_t i = begin; i < end; ++i) {
       const NearestPoints& nearest = footprints.nearest[i];
       float most = 0.0f;

@@ -18,7 +18,7 @@ namespace pcl_uvol {
 
 namespace {
 
-constexpr std::size_t block_points = 1u << 12;
+constexpr std::size_t oriented_block = 1u << 12;
 
 /** Fields that hold the normal, if the cloud has them as numbers. */
 std::optional<std::array<ScalarField, 3>>
@@ -56,7 +56,7 @@ readNormals(const CloudView& cloud,
   normals.packed.resize(cloud.count);
   normals.use = parallelGather<std::uint32_t>(
       use.size(),
-      block_points,
+      oriented_block,
       threads,
       [&](std::size_t begin, std::size_t end, std::vector<std::uint32_t>& found) {
         for (std::size_t i = begin; i < end; ++i) {
@@ -107,7 +107,7 @@ readEdgeLengths(const CloudView& cloud, const SampleSet& samples, unsigned threa
     return lengths;
   const ScalarField field(cloud.fields, "edge_length");
   lengths.resize(samples.size());
-  parallelBlocks(samples.size(), block_points, threads, [&](auto begin, auto end) {
+  parallelBlocks(samples.size(), oriented_block, threads, [&](auto begin, auto end) {
     for (std::size_t i = begin; i < end; ++i) {
       const auto length = static_cast<float>(
           field.read(cloud.point(samples.getInputIndex(i))) * samples.getUnit().factor);

@@ -18,7 +18,7 @@ namespace pcl_uvol {
 
 namespace {
 
-constexpr std::size_t block_points = 1u << 12;
+constexpr std::size_t splat_block = 1u << 12;
 
 /** Splats that are grown at once: so few that hardly one of them is passed over for the
  * sake of another one, in parts of those that stand already. */
@@ -67,7 +67,7 @@ leastRadii(const SampleSet& samples,
     std::nth_element(known.begin(), middle, known.end());
     usual = *middle;
   }
-  parallelBlocks(footprints.size(), block_points, threads, [&](auto begin, auto end) {
+  parallelBlocks(footprints.size(), splat_block, threads, [&](auto begin, auto end) {
     NearestFinder finder(samples, 2);
     for (std::size_t i = begin; i < end; ++i) {
       if (footprints[i] > 0.0f)

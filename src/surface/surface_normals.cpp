@@ -17,7 +17,7 @@ namespace pcl_uvol {
 
 namespace {
 
-constexpr std::size_t block_points = 1u << 10;
+constexpr std::size_t normal_block = 1u << 10;
 /** Middle over largest eigenvalue: below it the neighbours lie on one line, to float's
  * resolution of coordinates and with room for some digits that offsets cost. */
 constexpr double collinear_ratio = 1e-9;
@@ -127,7 +127,7 @@ std::vector<Eigen::Vector3f>
 collectSides(const SampleSet& samples, const Orientation& orientation, unsigned threads)
 {
   std::vector<Eigen::Vector3f> sides(samples.size());
-  parallelBlocks(sides.size(), block_points, threads, [&](auto begin, auto end) {
+  parallelBlocks(sides.size(), normal_block, threads, [&](auto begin, auto end) {
     for (std::size_t i = begin; i < end; ++i) {
       const auto sample = static_cast<std::uint32_t>(i);
       sides[i] = orientation.at(samples.getInputIndex(sample));
@@ -259,7 +259,7 @@ estimateSurfaceNormals(const CloudView& input,
   const std::vector<Eigen::Vector3f> sides =
       collectSides(*samples, orientation, threads);
   std::vector<Fit> fits(samples->size());
-  parallelBlocks(fits.size(), block_points, threads, [&](auto begin, auto end) {
+  parallelBlocks(fits.size(), normal_block, threads, [&](auto begin, auto end) {
     std::vector<std::uint32_t> own_sheet;
     for (std::size_t i = begin; i < end; ++i) {
       const auto sample = static_cast<std::uint32_t>(i);
@@ -275,7 +275,7 @@ estimateSurfaceNormals(const CloudView& input,
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
   std::vector<SurfaceNormal> normals(indices.size(), {{nan, nan, nan}, nan});
   std::atomic<std::uint64_t> degenerate{0};
-  parallelBlocks(indices.size(), block_points, threads, [&](auto begin, auto end) {
+  parallelBlocks(indices.size(), normal_block, threads, [&](auto begin, auto end) {
     for (std::size_t i = begin; i < end; ++i) {
       const std::uint32_t sample = sample_of[indices[i]];
       if (sample == no_sample)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "render/image_space/occlusion_grid.h"
 
+#include "common/constants.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -8,8 +10,6 @@
 namespace pcl_uvol {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /** Surfaces in the light of a point are no farther than this part of the cloud's
  * radius: as rays have it. */

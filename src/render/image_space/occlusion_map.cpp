@@ -13,7 +13,7 @@ namespace {
 /** Cells around the grid that pixels around a tile may ask for, and a register. */
 constexpr int least_border = 16;
 
-constexpr std::size_t rows_per_task = 8;
+constexpr std::size_t occlusion_rows = 8;
 
 const KernelTable<const OcclusionKernels*> kernel_table{
     &baseline::occlusion_kernels, &avx2::occlusion_kernels, &avx512::occlusion_kernels};
@@ -31,7 +31,7 @@ void
 forRows(int count, unsigned threads, const Visit& visit)
 {
   parallelBlocks(static_cast<std::size_t>(count),
-                 rows_per_task,
+                 occlusion_rows,
                  threads,
                  [&](std::size_t begin, std::size_t end) {
                    for (std::size_t row = begin; row < end; ++row)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "common/constants.h"
 #include "render/image_space/frame.h"
 #include <pcl_uvol/common/exceptions.h>
 
@@ -9,10 +10,8 @@ namespace pcl_uvol {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
 /** In parts of the far distance: points nearer than that are not drawn. */
-constexpr double near_part = 1e-4;
+constexpr double nearest_part = 1e-4;
 
 /** Room beyond the farthest point for discs and rounding. */
 constexpr double far_room = 1.05;
@@ -46,7 +45,7 @@ View::View(const Camera& camera,
   center_y = static_cast<float>(guard + 0.5 * height);
   const double farthest = shift.norm() + unit * bounds.radius;
   far = static_cast<float>(far_room * (farthest > 0.0 ? farthest : 1.0));
-  near = static_cast<float>(near_part * far);
+  near = static_cast<float>(nearest_part * far);
 }
 
 View

@@ -11,7 +11,7 @@ namespace pcl_uvol {
 
 namespace {
 
-constexpr std::size_t rows_per_task = 16;
+constexpr std::size_t silhouette_rows = 16;
 
 /** A pixel at a step in depth. */
 struct Step {
@@ -154,7 +154,7 @@ drawSilhouettes(const ImageSpaceSettings& settings,
 {
   SilhouettePainter painter(settings, width, image);
   const auto forRows = [&](const auto& work) {
-    parallelBlocks(image.height, rows_per_task, threads, [&](auto begin, auto end) {
+    parallelBlocks(image.height, silhouette_rows, threads, [&](auto begin, auto end) {
       for (std::size_t row = begin; row < end; ++row)
         work(static_cast<int>(row));
     });

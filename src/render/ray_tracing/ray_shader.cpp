@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "render/ray_tracing/ray_shader.h"
 
+#include "common/constants.h"
 #include "common/random.h"
 #include "render/lighting.h"
 
@@ -13,8 +14,6 @@
 namespace pcl_uvol {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /** Angle between the points of a sunflower (Vogel 1979), which fill a disc evenly. */
 const double golden_angle = pi * (3.0 - std::sqrt(5.0));

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "common/constants.h"
 #include "common/parallel.h"
 #include "render/lighting.h"
 #include "render/ray_tracing/ray_shader.h"
@@ -15,8 +16,6 @@
 namespace pcl_uvol {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /** Pixels of a tile's side: rays of a tile meet the same boxes. */
 constexpr int tile_size = 16;
