@@ -33,9 +33,9 @@ NaturalNeighborFinder::find(const Query& place,
 {
   search_.start(place, CellSearch::no_sample, near, count);
   bool is_bounded = true;
-  if (!simple_cells_.find(search_) || !takeSimpleCell()) {
-    is_bounded = cells_.find(search_);
-    takePolygons();
+  if (!cells_.find(search_) || !takeCell(true)) {
+    is_bounded = cells_.findAny(search_);
+    takeCell(false);
   }
   if (coordinates_ == NaturalCoordinates::Laplace)
     for (Neighbor& neighbor : neighbors_)
@@ -47,97 +47,31 @@ NaturalNeighborFinder::find(const Query& place,
 }
 
 bool
-NaturalNeighborFinder::takeSimpleCell()
+NaturalNeighborFinder::takeCell(bool needs_check)
 {
-  const SimpleCell& cell = simple_cells_.getCell();
+  const SimpleCell& cell = cells_.getCell();
   const std::size_t count = cell.getNumFaces();
-  std::array<double, SimpleCell::most_faces> ratios, volumes;
-  std::array<Vector3d, SimpleCell::most_faces> moments;
-  if (!cell.measureFaces(ratios.data(), moments.data()))
+  ratios_.resize(count);
+  moments_.resize(count);
+  volumes_.resize(count);
+  if (!cell.measureFaces(ratios_.data(), moments_.data()) && needs_check)
     return false;
   const bool is_sibson = coordinates_ == NaturalCoordinates::Sibson;
-  if (is_sibson && !cavity_.measure(cell, ratios.data(), volumes.data()))
+  if (is_sibson && !needs_check)
+    parts_.measure(cell, volumes_.data());
+  else if (is_sibson && !cavity_.measure(cell, ratios_.data(), volumes_.data()))
     return false;
-  neighbors_.resize(count);
+  neighbors_.clear();
   for (std::size_t face = 0; face < count; ++face) {
-    neighbors_[face].sample = cell.getFace(face).sample;
-    neighbors_[face].weight = is_sibson ? std::max(0.0, volumes[face]) : ratios[face];
+    if (cell.getFace(face).sample == CellSearch::no_sample)
+      continue;
+    neighbors_.push_back({cell.getFace(face).sample,
+                          std::max(0.0, is_sibson ? volumes_[face] : ratios_[face]),
+                          {}});
     // The face moves with the place, farther from its foot more so.
-    std::copy_n(moments[face].data(), 3, neighbors_[face].gradient.begin());
+    std::copy_n(moments_[face].data(), 3, neighbors_.back().gradient.begin());
   }
   return true;
-}
-
-void
-NaturalNeighborFinder::takePolygons()
-{
-  neighbors_.clear();
-  offsets_.clear();
-  cells_.forFaces([&](const CellFace& face) {
-    const std::uint32_t sample =
-        cells_.getNeighbors()[static_cast<std::size_t>(face.tag)];
-    const Vector3d offset = search_.offsetOf(sample);
-    const PolygonMoments moments = face.polygon.computeMoments();
-    const double ratio = moments.area / offset.norm();
-    neighbors_.push_back({sample, ratio, {}});
-    const Vector3d gradient = ratio * face.plane.placeOf(moments.centroid);
-    std::copy_n(gradient.data(), 3, neighbors_.back().gradient.begin());
-    offsets_.push_back(offset);
-  });
-  if (coordinates_ == NaturalCoordinates::Sibson)
-    computeVolumes();
-}
-
-void
-NaturalNeighborFinder::computeVolumes()
-{
-  // A volume is a third of the areas of its faces, each times its height over the place
-  // (divergence theorem): that of the cell's face, and those between the parts, which
-  // belong to two of them with opposite signs.
-  halves_.clear();
-  for (std::size_t i = 0; i < offsets_.size(); ++i) {
-    halves_.push_back(0.5 * offsets_[i].squaredNorm());
-    neighbors_[i].weight *= halves_[i]; // area / distance until now
-  }
-  for (std::size_t i = 0; i < offsets_.size(); ++i) {
-    sortByDistance(i);
-    for (std::size_t j = i + 1; j < offsets_.size(); ++j) {
-      const double moment = measureBetween(i, j);
-      neighbors_[i].weight += moment;
-      neighbors_[j].weight -= moment;
-    }
-  }
-  for (Neighbor& neighbor : neighbors_)
-    neighbor.weight = std::max(0.0, neighbor.weight / 3.0);
-}
-
-void
-NaturalNeighborFinder::sortByDistance(std::size_t i)
-{
-  by_distance_.clear();
-  for (std::size_t k = 0; k < offsets_.size(); ++k)
-    if (k != i)
-      by_distance_.emplace_back((offsets_[k] - offsets_[i]).squaredNorm(), k);
-  std::sort(by_distance_.begin(), by_distance_.end());
-}
-
-double
-NaturalNeighborFinder::measureBetween(std::size_t i, std::size_t j)
-{
-  const CellPlane plane(offsets_[j] - offsets_[i], halves_[j] - halves_[i]);
-  const double sq_room =
-      cells_.getReach() * cells_.getReach() - plane.height * plane.height;
-  if (!(sq_room > 0.0))
-    return 0.0;
-  part_.start(std::sqrt(sq_room));
-  plane.cut(part_, offsets_[i], halves_[i], 0.0);
-  for (const auto& [sq_distance, k] : by_distance_) {
-    if (part_.size() == 0)
-      return 0.0;
-    if (k != j)
-      plane.cut(part_, offsets_[k] - offsets_[i], halves_[k] - halves_[i], 0.0);
-  }
-  return plane.height * part_.computeMoments().area;
 }
 
 NaturalModel::NaturalModel(const SampledFields& sampled, NaturalCoordinates coordinates)

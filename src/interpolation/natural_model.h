@@ -4,12 +4,11 @@
 #pragma once
 
 #include "interpolation/field_model.h"
+#include "neighbors/cell_parts.h"
 #include "neighbors/delaunay_cavity.h"
-#include "neighbors/voronoi_cell.h"
 
 #include <array>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 namespace pcl_uvol::detail {
@@ -48,41 +47,21 @@ public:
   }
 
 private:
-  /** Take them from a simple cell.
-   * \return false if rounding decides what their volumes are */
+  /** Take them from the faces of the cell.
+   * \param needs_check refuse cells that rounding has left open, and parts in which it
+   * decides where samples are not in general position
+   * \return false if they are refused */
   bool
-  takeSimpleCell();
-
-  /** Take them from a cell of polygons. */
-  void
-  takePolygons();
-
-  /** The volumes of the parts of the cell that each face's sample was nearest to. */
-  void
-  computeVolumes();
-
-  /** Sort the samples of the other faces by their distance from one: the cells of
-   * nearer samples leave nothing of most faces between two samples, and few of them are
-   * needed to see that. A cell among stretched samples has hundreds of faces. */
-  void
-  sortByDistance(std::size_t i);
-
-  /** The area, within the cell, of the face between the cells that two samples had;
-   * after sortByDistance(i).
-   * \return that times the height of its plane over the first one's side */
-  double
-  measureBetween(std::size_t i, std::size_t j);
+  takeCell(bool needs_check);
 
   CellSearch search_;
-  SimpleCellFinder simple_cells_;
+  SimpleCellFinder cells_;
   DelaunayCavity cavity_;
-  VoronoiCellFinder cells_;
+  CellParts parts_;
   NaturalCoordinates coordinates_;
   std::vector<Neighbor> neighbors_;
-  std::vector<Eigen::Vector3d> offsets_; ///< of the samples of the faces
-  std::vector<double> halves_;           ///< of their squared lengths
-  std::vector<std::pair<double, std::size_t>> by_distance_; ///< from one of them
-  ConvexPolygon part_;
+  std::vector<double> ratios_, volumes_; ///< of the faces
+  std::vector<Eigen::Vector3d> moments_;
 };
 
 /** \brief The mean of the natural neighbours' values by their coordinates: passes

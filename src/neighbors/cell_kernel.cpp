@@ -39,7 +39,7 @@ findFirst(const double* const* points,
           std::size_t count,
           const double* plane,
           const double* sphere,
-          const std::uint8_t* corners,
+          const std::uint16_t* corners,
           double* distances,
           std::size_t* first)
 {

@@ -43,7 +43,7 @@ struct CellKernels {
                       std::size_t count,
                       const double* plane,
                       const double* sphere,
-                      const std::uint8_t* corners,
+                      const std::uint16_t* corners,
                       double* distances,
                       std::size_t* first);
 };

@@ -25,11 +25,11 @@ mostTetrahedra(std::size_t corners)
   return 4 * corners;
 }
 
-std::uint32_t
-keyOf(std::uint32_t a, std::uint32_t b, std::uint32_t c)
+std::uint64_t
+keyOf(std::uint64_t a, std::uint64_t b, std::uint64_t c)
 {
-  const std::uint32_t low = std::min({a, b, c}), high = std::max({a, b, c});
-  return low << 16 | (a + b + c - low - high) << 8 | high;
+  const std::uint64_t low = std::min({a, b, c}), high = std::max({a, b, c});
+  return low << 32 | (a + b + c - low - high) << 16 | high;
 }
 
 /** How much an edge of the Voronoi diagram, around the edge of the triangulation
@@ -52,7 +52,7 @@ DelaunayCavity::measure(const SimpleCell& cell, const double* ratios, double* vo
 {
   start(cell);
   std::fill_n(volumes, count_, 0.0);
-  cell.forEdges([&](std::uint8_t a, std::uint8_t b, std::size_t from, std::size_t to) {
+  cell.forEdges([&](std::uint16_t a, std::uint16_t b, std::size_t from, std::size_t to) {
     const double around = measureAround(cell.getFace(a).offset,
                                         cell.getFace(b).offset,
                                         cell.getVertex(from),
@@ -62,7 +62,7 @@ DelaunayCavity::measure(const SimpleCell& cell, const double* ratios, double* vo
   });
   for (std::size_t tetrahedra = 0; !fronts_.empty(); ++tetrahedra) {
     const Front front = remove(fronts_.size() - 1);
-    std::uint8_t tip;
+    std::uint16_t tip;
     Vector3d center;
     if (tetrahedra == mostTetrahedra(count_) || !findTip(front, tip, center))
       return false;
@@ -97,6 +97,8 @@ DelaunayCavity::start(const SimpleCell& cell)
 {
   kernels_ = &cell.getKernels();
   count_ = cell.getNumFaces();
+  for (auto* const row : {&x_, &y_, &z_, &limits_, &distances_})
+    row->resize(count_ + cell_padding);
   for (std::size_t face = 0; face < count_; ++face) {
     const Vector3d& offset = cell.getFace(face).offset;
     x_[face] = offset.x();
@@ -105,9 +107,10 @@ DelaunayCavity::start(const SimpleCell& cell)
     limits_[face] = cell.getFace(face).limit;
   }
   for (auto* const row : {&x_, &y_, &z_})
-    std::fill_n(row->begin() + count_, cell_padding, 0.0);
-  std::fill_n(
-      limits_.begin() + count_, cell_padding, std::numeric_limits<double>::infinity());
+    std::fill(row->end() - cell_padding, row->end(), 0.0);
+  std::fill(limits_.end() - cell_padding,
+            limits_.end(),
+            std::numeric_limits<double>::infinity());
   fronts_.clear();
   keys_.clear();
   for (std::size_t v = 0; v < cell.getNumVertices(); ++v) {
@@ -118,7 +121,7 @@ DelaunayCavity::start(const SimpleCell& cell)
 }
 
 void
-DelaunayCavity::push(const Front& front, std::uint32_t key)
+DelaunayCavity::push(const Front& front, std::uint64_t key)
 {
   fronts_.push_back(front);
   keys_.push_back(key);
@@ -136,7 +139,7 @@ DelaunayCavity::remove(std::size_t front)
 }
 
 bool
-DelaunayCavity::findTip(const Front& front, std::uint8_t& tip, Vector3d& center)
+DelaunayCavity::findTip(const Front& front, std::uint16_t& tip, Vector3d& center)
 {
   // The spheres through the corners have their centres on a line; the first one that
   // meets a sample on its way to the front is that of the tetrahedron.
@@ -153,19 +156,19 @@ DelaunayCavity::findTip(const Front& front, std::uint8_t& tip, Vector3d& center)
   std::size_t met;
   const double distance = kernels_->findFirst(
       points, count_, plane, sphere, front.corners.data(), distances_.data(), &met);
-  tip = static_cast<std::uint8_t>(met);
+  tip = static_cast<std::uint16_t>(met);
   center = front.center + distance * normal;
   return std::isfinite(distance);
 }
 
 bool
-DelaunayCavity::addTriangle(std::uint8_t a,
-                            std::uint8_t b,
-                            std::uint8_t c,
+DelaunayCavity::addTriangle(std::uint16_t a,
+                            std::uint16_t b,
+                            std::uint16_t c,
                             const Vector3d& center,
                             double* volumes)
 {
-  const std::uint32_t key = keyOf(a, b, c);
+  const std::uint64_t key = keyOf(a, b, c);
   const auto known = std::find(keys_.begin(), keys_.end(), key);
   if (known == keys_.end()) {
     push({{a, b, c}, center}, key);
@@ -183,9 +186,9 @@ DelaunayCavity::addVoronoiEdge(const Front& front,
                                const Vector3d& center,
                                double* volumes)
 {
-  const auto place = [&](std::uint8_t i) { return Vector3d(x_[i], y_[i], z_[i]); };
+  const auto place = [&](std::uint16_t i) { return Vector3d(x_[i], y_[i], z_[i]); };
   for (std::size_t k = 0; k < 3; ++k) {
-    const std::uint8_t i = front.corners[k], j = front.corners[(k + 1) % 3];
+    const std::uint16_t i = front.corners[k], j = front.corners[(k + 1) % 3];
     const double around = measureAround(place(i), place(j), front.center, center);
     volumes[i] += around;
     volumes[j] += around;

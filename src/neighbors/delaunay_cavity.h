@@ -5,7 +5,6 @@
 
 #include "neighbors/simple_cell.h"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -33,7 +32,7 @@ private:
   /** A triangle of samples with a tetrahedron on its back; the one in front, on the
    * side from which they go round counterclockwise, is not known yet. */
   struct Front {
-    std::array<std::uint8_t, 3> corners;
+    SimpleCell::Corner corners;
     Eigen::Vector3d center; ///< of the sphere of the tetrahedron on the back
   };
 
@@ -41,7 +40,7 @@ private:
   start(const SimpleCell& cell);
 
   void
-  push(const Front& front, std::uint32_t key);
+  push(const Front& front, std::uint64_t key);
 
   /** Take a front away. */
   Front
@@ -50,13 +49,13 @@ private:
   /** Find the tetrahedron in front of a triangle.
    * \return false if there is none */
   bool
-  findTip(const Front& front, std::uint8_t& tip, Eigen::Vector3d& center);
+  findTip(const Front& front, std::uint16_t& tip, Eigen::Vector3d& center);
 
   /** Close the triangle between two tetrahedra, or note that it has one. */
   bool
-  addTriangle(std::uint8_t a,
-              std::uint8_t b,
-              std::uint8_t c,
+  addTriangle(std::uint16_t a,
+              std::uint16_t b,
+              std::uint16_t c,
               const Eigen::Vector3d& center,
               double* volumes);
 
@@ -67,10 +66,9 @@ private:
 
   const CellKernels* kernels_ = nullptr; ///< those of the cell
   std::size_t count_ = 0;
-  std::array<double, SimpleCell::most_faces + cell_padding> x_, y_, z_, limits_,
-      distances_;
+  std::vector<double> x_, y_, z_, limits_, distances_; ///< with cell_padding
   std::vector<Front> fronts_;
-  std::vector<std::uint32_t> keys_; ///< of each: its corners in ascending order
+  std::vector<std::uint64_t> keys_; ///< of each: its corners in ascending order
 };
 
 } // namespace pcl_uvol::detail

@@ -8,7 +8,6 @@
 #include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace pcl_uvol {
@@ -71,12 +70,12 @@ private:
   takeSimpleCell()
   {
     const detail::SimpleCell& cell = simple_cells_.getCell();
-    std::array<double, detail::SimpleCell::most_faces> ratios;
-    std::array<Eigen::Vector3d, detail::SimpleCell::most_faces> moments;
-    if (!cell.measureFaces(ratios.data(), moments.data()))
+    ratios_.resize(cell.getNumFaces());
+    moments_.resize(cell.getNumFaces());
+    if (!cell.measureFaces(ratios_.data(), moments_.data()))
       return false;
     for (std::size_t i = 0; i < cell.getNumFaces(); ++i)
-      if (ratios[i] > least_area * cell.getFace(i).length)
+      if (ratios_[i] > least_area * cell.getFace(i).length)
         found_.push_back(cell.getFace(i).sample);
     return true;
   }
@@ -103,6 +102,8 @@ private:
   detail::VoronoiCellFinder cells_;
   float reach_ = 1.0f; ///< of the sample before
   std::vector<std::uint32_t> others_, found_;
+  std::vector<double> ratios_;
+  std::vector<Eigen::Vector3d> moments_;
 };
 
 } // namespace

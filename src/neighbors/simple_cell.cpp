@@ -38,11 +38,25 @@ constexpr double closing_error = 1e-11;
 SimpleCell::SimpleCell()
     : kernels_(cell_kernel_table.get())
 {
+  grow();
 }
 
 void
-SimpleCell::start(double half_side)
+SimpleCell::grow()
 {
+  words_ = words_ == 0 ? 1 : 2 * words_;
+  const std::size_t faces = 64 * words_, vertices = 2 * faces; // Euler: 2 f - 4
+  face_.resize(faces);
+  uses_.resize(faces);
+  removed_edges_.assign(faces * words_, 0);
+  for (auto* const row : {&x_, &y_, &z_, &heights_})
+    row->resize(vertices + cell_padding);
+}
+
+void
+SimpleCell::start(double half_side, Ties ties)
+{
+  ties_ = ties;
   faces_ = 0;
   vertices_ = 0;
   sq_reach_ = 0.0;
@@ -52,9 +66,11 @@ SimpleCell::start(double half_side)
       face_[faces_++] = {
           side * Vector3d::Unit(axis), half_side, 1.0, CellSearch::no_sample};
     }
-  for (const std::uint8_t x : {0, 1})
-    for (const std::uint8_t y : {2, 3})
-      for (const std::uint8_t z : {4, 5})
+  is_final_.clear();
+  corners_.clear();
+  for (const std::uint16_t x : {0, 1})
+    for (const std::uint16_t y : {2, 3})
+      for (const std::uint16_t z : {4, 5})
         if ((x + y + z) % 2 == 1) // an even number of them looks down its axis
           addVertex(x, y, z);
         else
@@ -64,38 +80,71 @@ SimpleCell::start(double half_side)
 SimpleCell::Cut
 SimpleCell::cut(const Vector3d& offset, std::uint32_t sample)
 {
-  const double sq_length = offset.squaredNorm(), limit = 0.5 * sq_length;
+  const double sq_length = offset.squaredNorm();
   if (sq_length > most_reaches * most_reaches * sq_reach_)
     return Cut::Nothing;
-  const double margin = unsure_height * std::sqrt(sq_length * sq_reach_);
+  return cut({offset, 0.5 * sq_length, std::sqrt(sq_length), sample});
+}
+
+SimpleCell::Cut
+SimpleCell::cut(const Vector3d& offset, double limit, std::uint32_t sample)
+{
+  return cut({offset, limit, offset.norm(), sample});
+}
+
+SimpleCell::Cut
+SimpleCell::cut(const Face& face)
+{
+  const double margin = unsure_height * face.length * std::sqrt(sq_reach_);
   for (auto* const row : {&x_, &y_, &z_})
-    std::fill_n(row->begin() + vertices_, cell_padding, 0.0);
+    std::fill_n(row->begin() + static_cast<std::ptrdiff_t>(vertices_), cell_padding, 0.0);
   const double* const points[] = {x_.data(), y_.data(), z_.data()};
-  const double plane[] = {offset.x(), offset.y(), offset.z(), limit};
+  const double plane[] = {
+      face.offset.x(), face.offset.y(), face.offset.z(), face.limit};
   const unsigned heights =
       kernels_->measureHeights(points, vertices_, plane, margin, heights_.data());
   if (heights == 0)
     return Cut::Nothing;
-  if (heights & 2)
-    return Cut::Unsure;
+  if (heights & 2) {
+    if (ties_ == Ties::Refuse)
+      return Cut::Unsure;
+    if (!keepTies(face.length))
+      return Cut::Nothing;
+  }
   const std::size_t own = findEmptyFace();
   if (own == most_faces)
     return Cut::Unsure;
-  face_[own] = {offset, limit, std::sqrt(sq_length), sample};
-  return replaceVertices(static_cast<std::uint8_t>(own)) ? Cut::Part : Cut::Unsure;
+  face_[own] = face;
+  return replaceVertices(static_cast<std::uint16_t>(own)) ? Cut::Part : Cut::Unsure;
 }
 
 bool
-SimpleCell::replaceVertices(std::uint8_t face)
+SimpleCell::keepTies(double length)
 {
-  std::array<std::array<std::uint8_t, 3>, most_vertices> removed;
-  std::size_t gone = 0, kept = 0;
+  bool is_part = false;
+  for (std::size_t v = 0; v < vertices_; ++v) {
+    const bool is_over =
+        heights_[v] > 0.0 && heights_[v] > unsure_height * length * getVertex(v).norm();
+    heights_[v] = is_over ? heights_[v] : std::min(heights_[v], 0.0);
+    is_part = is_part || is_over;
+  }
+  return is_part;
+}
+
+bool
+SimpleCell::replaceVertices(std::uint16_t face)
+{
+  std::size_t kept = 0;
+  removed_.clear();
   sq_reach_ = 0.0;
   for (std::size_t v = 0; v < vertices_; ++v)
     if (heights_[v] > 0.0) {
-      const auto& corner = removed[gone++] = corners_[v];
+      const Corner& corner = corners_[v];
+      removed_.push_back({getVertex(v), heights_[v], corner});
       for (std::size_t k = 0; k < 3; ++k) {
-        removed_edges_[corner[k]] |= std::uint64_t{1} << corner[(k + 1) % 3];
+        const std::uint16_t next = corner[(k + 1) % 3];
+        removed_edges_[corner[k] * words_ + next / 64] |= std::uint64_t{1}
+                                                          << (next % 64);
         --uses_[corner[k]];
       }
     }
@@ -108,69 +157,107 @@ SimpleCell::replaceVertices(std::uint8_t face)
       sq_reach_ = std::max(sq_reach_, x_[v] * x_[v] + y_[v] * y_[v] + z_[v] * z_[v]);
     }
   vertices_ = kept;
+  is_final_.resize(kept);
+  corners_.resize(kept);
   // Edges of one removed triangle alone are the rim that the new face's triangles
   // close.
   bool is_sure = true;
-  for (std::size_t i = 0; i < gone; ++i)
+  for (const Vertex& removed : removed_)
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint8_t a = removed[i][k], b = removed[i][(k + 1) % 3];
-      if ((removed_edges_[b] >> a & 1u) == 0)
-        is_sure = addVertex(a, b, face) && is_sure;
+      const std::uint16_t a = removed.corner[k], b = removed.corner[(k + 1) % 3];
+      if ((removed_edges_[b * words_ + a / 64] >> (a % 64) & 1u) != 0)
+        continue;
+      if (!addVertex(a, b, face)) {
+        is_sure = ties_ == Ties::Keep;
+        if (is_sure)
+          addCrossing(removed, a, b, face);
+      }
     }
-  for (std::size_t i = 0; i < gone; ++i)
-    for (const std::uint8_t other : removed[i])
-      removed_edges_[other] = 0;
+  for (const Vertex& removed : removed_)
+    for (std::size_t k = 0; k < 3; ++k)
+      removed_edges_[removed.corner[k] * words_ + removed.corner[(k + 1) % 3] / 64] = 0;
   return is_sure;
 }
 
 bool
-SimpleCell::addVertex(std::uint8_t a, std::uint8_t b, std::uint8_t c)
+SimpleCell::addVertex(std::uint16_t a, std::uint16_t b, std::uint16_t c)
 {
   const Face &first = face_[a], &second = face_[b], &third = face_[c];
   const Vector3d across = second.offset.cross(third.offset);
   const double volume = first.offset.dot(across);
-  if (vertices_ == most_vertices ||
-      !(volume > least_volume * first.length * second.length * third.length))
+  if (!(volume > least_volume * first.length * second.length * third.length))
     return false;
-  const Vector3d place =
+  addVertex(
       (first.limit * across +
        first.offset.cross(third.limit * second.offset - second.limit * third.offset)) /
-      volume;
+          volume,
+      {a, b, c});
+  return true;
+}
+
+void
+SimpleCell::addVertex(const Vector3d& place, const Corner& corner)
+{
+  if (vertices_ + cell_padding == x_.size()) // not of a cell without confusion
+    for (auto* const row : {&x_, &y_, &z_, &heights_})
+      row->resize(2 * row->size());
   x_[vertices_] = place.x();
   y_[vertices_] = place.y();
-  z_[vertices_] = place.z();
-  is_final_[vertices_] = false;
-  corners_[vertices_++] = {a, b, c};
-  for (const std::uint8_t face : {a, b, c})
+  z_[vertices_++] = place.z();
+  is_final_.push_back(false);
+  corners_.push_back(corner);
+  for (const std::uint16_t face : corner)
     ++uses_[face];
   sq_reach_ = std::max(sq_reach_, place.squaredNorm());
-  return true;
+}
+
+void
+SimpleCell::addCrossing(const Vertex& removed,
+                        std::uint16_t a,
+                        std::uint16_t b,
+                        std::uint16_t c)
+{
+  // The kept end of the edge has both faces the other way round.
+  Vector3d place = removed.place;
+  for (std::size_t v = 0; v < vertices_; ++v)
+    for (std::size_t k = 0; k < 3; ++k)
+      if (corners_[v][k] == b && corners_[v][(k + 1) % 3] == a) {
+        const Face& plane = face_[c];
+        const Vector3d end = getVertex(v);
+        const double height = std::min(0.0, plane.offset.dot(end) - plane.limit);
+        place = end + height / (height - removed.height) * (removed.place - end);
+      }
+  addVertex(place, {a, b, c});
 }
 
 std::size_t
 SimpleCell::findEmptyFace()
 {
-  const auto* const empty = std::find(uses_.begin(), uses_.begin() + faces_, 0);
-  const auto face = static_cast<std::size_t>(empty - uses_.begin());
-  if (face == faces_ && faces_ < most_faces)
-    uses_[faces_++] = 0;
+  const auto end = uses_.begin() + static_cast<std::ptrdiff_t>(faces_);
+  const auto face =
+      static_cast<std::size_t>(std::find(uses_.begin(), end, 0u) - uses_.begin());
+  if (face < faces_ || face == most_faces)
+    return face;
+  if (face == face_.size())
+    grow();
+  uses_[faces_++] = 0;
   return face;
 }
 
 void
 SimpleCell::dropEmptyFaces()
 {
-  std::array<std::uint8_t, most_faces> number{};
+  std::vector<std::uint16_t> number(faces_);
   std::size_t kept = 0;
   for (std::size_t face = 0; face < faces_; ++face)
     if (uses_[face] > 0) {
-      number[face] = static_cast<std::uint8_t>(kept);
+      number[face] = static_cast<std::uint16_t>(kept);
       uses_[kept] = uses_[face];
       face_[kept++] = face_[face];
     }
   faces_ = kept;
   for (std::size_t v = 0; v < vertices_; ++v)
-    for (std::uint8_t& face : corners_[v])
+    for (std::uint16_t& face : corners_[v])
       face = number[face];
 }
 
@@ -193,9 +280,18 @@ bool
 SimpleCell::isOfCube(std::size_t vertex) const
 {
   const auto& corner = corners_[vertex];
-  return std::any_of(corner.begin(), corner.end(), [this](std::uint8_t face) {
+  return std::any_of(corner.begin(), corner.end(), [this](std::uint16_t face) {
     return face_[face].sample == CellSearch::no_sample;
   });
+}
+
+bool
+SimpleCell::hasFaceOf(std::uint32_t sample) const
+{
+  for (std::size_t face = 0; face < faces_; ++face)
+    if (face_[face].sample == sample && uses_[face] > 0)
+      return true;
+  return false;
 }
 
 bool
@@ -204,7 +300,7 @@ SimpleCell::measureFaces(double* ratios, Vector3d* moments) const
   std::fill_n(ratios, faces_, 0.0);
   std::fill_n(moments, faces_, Vector3d::Zero());
   // A face is the sum of the triangles between its foot and its edges.
-  forEdges([&](std::uint8_t a, std::uint8_t b, std::size_t from, std::size_t to) {
+  forEdges([&](std::uint16_t a, std::uint16_t b, std::size_t from, std::size_t to) {
     const Vector3d begin = getVertex(from), end = getVertex(to);
     const Vector3d across = end.cross(begin), ends = begin + end;
     const auto addTriangle = [&](std::size_t face, double twice) {
@@ -224,6 +320,21 @@ SimpleCell::measureFaces(double* ratios, Vector3d* moments) const
     sum += ratios[face] * face_[face].offset;
   }
   return sum.squaredNorm() <= closing_error * closing_error * area * area;
+}
+
+double
+SimpleCell::computeVolume() const
+{
+  // Tetrahedra between the origin, the foot of a face and an edge of it.
+  double sum = 0.0;
+  forEdges([&](std::uint16_t a, std::uint16_t b, std::size_t from, std::size_t to) {
+    const Vector3d across = getVertex(to).cross(getVertex(from));
+    const auto measureFoot = [&](const Face& face) {
+      return face.limit / (face.length * face.length) * face.offset.dot(across);
+    };
+    sum += measureFoot(face_[a]) - measureFoot(face_[b]);
+  });
+  return sum / 6.0;
 }
 
 bool
@@ -247,6 +358,29 @@ SimpleCellFinder::find(const CellSearch& around)
   }
   cell_.dropEmptyFaces();
   return true;
+}
+
+bool
+SimpleCellFinder::findAny(const CellSearch& around)
+{
+  cell_.start(around.getHalfSide(), SimpleCell::Ties::Keep);
+  for (const std::uint32_t sample : around.getNear())
+    cell_.cut(around.offsetOf(sample), sample);
+  bool is_bounded = true;
+  for (std::size_t vertex;
+       is_bounded && cell_.findOpenVertex(0.25 * around.getSqKnown(), vertex);) {
+    std::uint32_t sample;
+    if (around.findInBall(cell_.getVertex(vertex), sample) &&
+        !cell_.hasFaceOf(sample) &&
+        cell_.cut(around.offsetOf(sample), sample) == SimpleCell::Cut::Part)
+      continue;
+    is_bounded = !cell_.isOfCube(vertex);
+    cell_.setFinal(vertex);
+  }
+  cell_.dropEmptyFaces();
+  for (std::size_t face = 0; face < cell_.getNumFaces(); ++face)
+    is_bounded = is_bounded && cell_.getFace(face).sample != CellSearch::no_sample;
+  return is_bounded;
 }
 
 } // namespace pcl_uvol::detail

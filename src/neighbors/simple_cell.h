@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The Voronoi cell of a place among samples in general position.
+// The Voronoi cell of a place among samples.
 #pragma once
 
 #include "neighbors/cell_kernel.h"
@@ -10,25 +10,37 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace pcl_uvol::detail {
 
-/** \brief A convex cell around the origin, three faces of which meet at each vertex, as
- * they do for samples in general position. It is kept as its dual: a vertex is the
- * triangle of its faces, counterclockwise from outside, as in Ray, Sokolov, Lefebvre
- * and Levy, Meshless Voronoi on the GPU (2018). Cutting it takes a tenth of the time
- * that VoronoiCellFinder's polygons take, which know no such condition. */
+/** \brief A convex cell, three faces of which meet at each vertex, as they do for
+ * samples in general position. It is kept as its dual: a vertex is the triangle of its
+ * faces, counterclockwise from outside, as in Ray, Sokolov, Lefebvre and Levy, Meshless
+ * Voronoi on the GPU (2018). Cutting it takes a tenth of the time that
+ * VoronoiCellFinder's polygons take.
+ *
+ * Where more planes pass through one place, as among the nodes of structured grids, the
+ * cell can have several vertices there, with edges without length between them. */
 class SimpleCell {
 public:
-  static constexpr std::size_t most_faces = 64; ///< those of random samples have 15.5
-  static constexpr std::size_t most_vertices = 2 * most_faces; // Euler: 2 f - 4
+  static constexpr std::size_t most_faces = 0xffff; ///< numbers have 16 bits
+
+  /** \brief The faces of a vertex. */
+  using Corner = std::array<std::uint16_t, 3>;
 
   SimpleCell();
+
+  /** \brief What happens if a vertex is on a plane, but for rounding. */
+  enum class Ties {
+    Refuse, ///< cut() is unsure
+    Keep    ///< the plane does not cut off the vertex
+  };
 
   enum class Cut {
     Nothing, ///< was cut off
     Part,
-    Unsure ///< a vertex lies on the plane, but for rounding, or there are too many
+    Unsure ///< Ties::Refuse, and more than three planes meet; or too many faces
   };
 
   /** \brief A plane: offset . x = limit, with the cell on the side of smaller ones. */
@@ -41,12 +53,16 @@ public:
 
   /** \brief Become a cube about the origin, whose faces have no sample. */
   void
-  start(double half_side);
+  start(double half_side, Ties ties = Ties::Refuse);
 
   /** \brief Keep what lies nearer to the origin than to a sample. After Unsure the cell
    * is undefined. */
   Cut
   cut(const Eigen::Vector3d& offset, std::uint32_t sample);
+
+  /** \brief Keep the part where offset . x <= limit. */
+  Cut
+  cut(const Eigen::Vector3d& offset, double limit, std::uint32_t sample);
 
   /** \brief Number the faces that are left without gaps: after the last cut. */
   void
@@ -77,7 +93,7 @@ public:
   }
 
   /** \brief The three faces of a vertex, counterclockwise from outside. */
-  const std::array<std::uint8_t, 3>&
+  const Corner&
   getCorner(std::size_t vertex) const
   {
     return corners_[vertex];
@@ -96,16 +112,20 @@ public:
   void
   forEdges(const Visit& visit) const
   {
-    std::array<std::array<std::uint8_t, most_faces>, most_faces> vertex_of;
-    for (std::size_t v = 0; v < vertices_; ++v)
-      for (std::size_t k = 0; k < 3; ++k)
-        vertex_of[corners_[v][k]][corners_[v][(k + 1) % 3]] =
-            static_cast<std::uint8_t>(v);
+    // The vertices of each face are chained: a place in a chain is 3 v + k.
+    chains_.assign(faces_, no_place);
+    next_.resize(3 * vertices_);
     for (std::size_t v = 0; v < vertices_; ++v)
       for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint8_t a = corners_[v][k], b = corners_[v][(k + 1) % 3];
+        std::uint32_t& chain = chains_[corners_[v][k]];
+        next_[3 * v + k] = chain;
+        chain = static_cast<std::uint32_t>(3 * v + k);
+      }
+    for (std::size_t v = 0; v < vertices_; ++v)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint16_t a = corners_[v][k], b = corners_[v][(k + 1) % 3];
         if (a < b)
-          visit(a, b, v, static_cast<std::size_t>(vertex_of[b][a]));
+          visit(a, b, v, findOtherEnd(a, b));
       }
   }
 
@@ -132,6 +152,10 @@ public:
   bool
   isOfCube(std::size_t vertex) const;
 
+  /** \brief Whether a sample has cut the cell, and its face is still there. */
+  bool
+  hasFaceOf(std::uint32_t sample) const;
+
   /** \brief Measure the faces of a cell without empty faces.
    * \param ratios [face]: its area by the distance of its sample
    * \param moments [face]: the ratio times the face's centroid
@@ -139,33 +163,82 @@ public:
   bool
   measureFaces(double* ratios, Eigen::Vector3d* moments) const;
 
+  double
+  computeVolume() const;
+
 private:
+  static constexpr std::uint32_t no_place = 0xffffffffu;
+
+  struct Vertex {
+    Eigen::Vector3d place;
+    double height; ///< over the plane that removes it
+    Corner corner;
+  };
+
+  Cut
+  cut(const Face& face);
+
+  /** The vertex that has b before a in its corner. */
+  std::size_t
+  findOtherEnd(std::uint16_t a, std::uint16_t b) const
+  {
+    const bool is_a_shorter = uses_[a] <= uses_[b];
+    std::uint32_t place = chains_[is_a_shorter ? a : b];
+    for (; place != no_place; place = next_[place]) {
+      const Corner& corner = corners_[place / 3];
+      if (is_a_shorter ? corner[(place + 2) % 3] == b : corner[(place + 1) % 3] == a)
+        break;
+    }
+    return place / 3;
+  }
+
+  /** Lower vertices on a plane, but for rounding, to it.
+   * \param length of its normal
+   * \return false if none is left over it */
+  bool
+  keepTies(double length);
+
   /** Put a face to the place of the vertices of positive height.
    * \return false if a vertex of it is undefined */
   bool
-  replaceVertices(std::uint8_t face);
+  replaceVertices(std::uint16_t face);
 
   /** Make the place where three planes meet a vertex.
    * \return false if they are parallel to one line, but for rounding, or turn the other
    * way */
   bool
-  addVertex(std::uint8_t a, std::uint8_t b, std::uint8_t c);
+  addVertex(std::uint16_t a, std::uint16_t b, std::uint16_t c);
+
+  void
+  addVertex(const Eigen::Vector3d& place, const Corner& corner);
+
+  /** Make a vertex where the edge from a removed vertex crosses the plane. */
+  void
+  addCrossing(const Vertex& removed, std::uint16_t a, std::uint16_t b, std::uint16_t c);
 
   /** \return most_faces if there is none left */
   std::size_t
   findEmptyFace();
 
+  /** Make room for twice as many faces. */
+  void
+  grow();
+
   const CellKernels* kernels_;
+  Ties ties_ = Ties::Refuse;
   std::size_t faces_ = 0; ///< some of them empty
   std::size_t vertices_ = 0;
   double sq_reach_ = 0.0;
-  std::array<Face, most_faces> face_;
-  std::array<std::uint8_t, most_faces> uses_; ///< vertices of a face
+  std::size_t words_ = 0; ///< room for 64 faces each
+  std::vector<Face> face_;
+  std::vector<std::uint32_t> uses_; ///< vertices of a face
   /** A bit for each edge of removed vertices, from face to face; 0 between cuts. */
-  std::array<std::uint64_t, most_faces> removed_edges_{};
-  std::array<double, most_vertices + cell_padding> x_, y_, z_, heights_;
-  std::array<bool, most_vertices> is_final_;
-  std::array<std::array<std::uint8_t, 3>, most_vertices> corners_;
+  std::vector<std::uint64_t> removed_edges_;
+  std::vector<double> x_, y_, z_, heights_;
+  std::vector<char> is_final_;
+  std::vector<Corner> corners_;
+  std::vector<Vertex> removed_;
+  mutable std::vector<std::uint32_t> chains_, next_; ///< of forEdges()
 };
 
 /** \brief Finds the cells of one place after another; one object per thread. */
@@ -176,6 +249,13 @@ public:
    * position: VoronoiCellFinder finds it */
   bool
   find(const CellSearch& around);
+
+  /** \brief Find the cell of any place among any samples.
+   * \return false if the cell is not bounded: the place is outside of the convex hull of
+   * the samples; getCell() is then the cell among the first samples and some others,
+   * within a cube far outside */
+  bool
+  findAny(const CellSearch& around);
 
   /** \brief The cell, without empty faces. */
   const SimpleCell&

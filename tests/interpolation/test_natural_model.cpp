@@ -3,6 +3,7 @@
 // and layouts in which many samples lie on one sphere.
 #include "common/random.h"
 #include "src/interpolation/natural_model.h"
+#include "src/neighbors/convex_polygon.h"
 
 #include <gtest/gtest.h>
 

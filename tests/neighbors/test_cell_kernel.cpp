@@ -105,7 +105,7 @@ TEST(CellKernel, FindsTheFirstPointOfAGrowingSphere)
 {
   for (const std::size_t count : {4u, 9u, 16u, 23u}) {
     const Points points(count);
-    const std::uint8_t corners[] = {2, 0, 3};
+    const std::uint16_t corners[] = {2, 0, 3};
     const double sphere[] = {0.1, -0.2, 0.15, 0.7};
     for (const double side : {-1.0, 1.0}) {
       const double plane[] = {0.5 * side, 0.2 * side, -0.6 * side, 0.1 * side};
