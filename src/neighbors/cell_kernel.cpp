@@ -68,8 +68,34 @@ findFirst(const double* const* points,
   return nearest;
 }
 
+std::size_t
+findNearest(const double* const* points, std::size_t count, const double* place)
+{
+  // Half the squared distance, but for what is common to all.
+  Doubles least = Doubles{} + __builtin_inf();
+  Longs row{}, nearest{};
+  for (std::size_t lane = 0; lane < wide_lanes; ++lane)
+    row[lane] = static_cast<long long>(lane);
+  for (std::size_t i = 0; i < count; i += wide_lanes) {
+    const Doubles distance =
+        load<Doubles>(points[3] + i) - place[0] * load<Doubles>(points[0] + i) -
+        place[1] * load<Doubles>(points[1] + i) -
+        place[2] * load<Doubles>(points[2] + i);
+    const Longs is_nearer = distance < least;
+    least = is_nearer ? distance : least;
+    nearest = is_nearer ? row : nearest;
+    row += static_cast<long long>(wide_lanes);
+  }
+  std::size_t first = 0;
+  for (std::size_t lane = 1; lane < wide_lanes; ++lane)
+    if (least[lane] < least[first] ||
+        (least[lane] == least[first] && nearest[lane] < nearest[first]))
+      first = lane;
+  return static_cast<std::size_t>(nearest[first]);
+}
+
 } // namespace
 
-extern const CellKernels cell_kernels{measureHeights, findFirst};
+extern const CellKernels cell_kernels{measureHeights, findFirst, findNearest};
 
 } // namespace pcl_uvol::PCL_UVOL_SIMD

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Vector kernels of Voronoi cells: vertices over a plane, and the first sample that a
-// growing sphere meets. Plain arrays, no library headers: the file is compiled once per
+// Vector kernels of Voronoi cells: vertices over a plane, the first sample that a growing
+// sphere meets, and the sample nearest to a vertex. Plain arrays, no library headers: the file is compiled once per
 // instruction set; all give the same bytes.
 #pragma once
 
@@ -46,6 +46,14 @@ struct CellKernels {
                       const std::uint16_t* corners,
                       double* distances,
                       std::size_t* first);
+
+  /** \brief Find the sample nearest to a place.
+   * \param points see findFirst
+   * \param count >= 1
+   * \return its row; of equally near ones the first one */
+  std::size_t (*findNearest)(const double* const* points,
+                             std::size_t count,
+                             const double* place);
 };
 
 namespace baseline {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <tuple>
 #include <utility>
 
 namespace pcl_uvol::detail {
@@ -95,35 +96,35 @@ CellSearch::findInBall(const Vector3d& vertex, std::uint32_t& found) const
     }
     return sum;
   };
-  std::pair<KdNode, double> stack[2 * 64];
+  std::pair<KdNode, double> stack[64];
   std::size_t depth = 0;
-  stack[depth++] = {tree.getRoot(), sqGap(tree.getRoot())};
-  while (depth > 0) {
-    const auto [node, sq_gap] = stack[--depth];
-    if (sq_gap >= sq_least)
-      continue;
-    if (!KdTree::isBucket(node)) {
-      const KdNode left = node.left(), right = node.right();
-      const double to_left = sqGap(left), to_right = sqGap(right);
-      // The nearer one comes off the stack first.
-      if (to_left <= to_right) {
-        stack[depth++] = {right, to_right};
-        stack[depth++] = {left, to_left};
+  KdNode node = tree.getRoot();
+  double sq_gap = sqGap(node);
+  for (;;) {
+    while (sq_gap < sq_least && !KdTree::isBucket(node)) {
+      KdNode nearer = node.left(), farther = node.right();
+      double to_nearer = sqGap(nearer), to_farther = sqGap(farther);
+      if (to_farther < to_nearer) {
+        std::swap(nearer, farther);
+        std::swap(to_nearer, to_farther);
       }
-      else {
-        stack[depth++] = {left, to_left};
-        stack[depth++] = {right, to_right};
+      if (to_farther < sq_least)
+        stack[depth++] = {farther, to_farther};
+      node = nearer;
+      sq_gap = to_nearer;
+    }
+    if (sq_gap < sq_least)
+      for (std::uint32_t i = node.begin; i < node.begin + node.count; ++i) {
+        const double sq_dist = sqDistance(center, positions[i]);
+        if (sq_dist >= sq_least || i == own_)
+          continue;
+        sq_least = sq_dist;
+        found = i;
+        is_found = true;
       }
-      continue;
-    }
-    for (std::uint32_t i = node.begin; i < node.begin + node.count; ++i) {
-      const double sq_dist = sqDistance(center, positions[i]);
-      if (sq_dist >= sq_least || i == own_)
-        continue;
-      sq_least = sq_dist;
-      found = i;
-      is_found = true;
-    }
+    if (depth == 0)
+      break;
+    std::tie(node, sq_gap) = stack[--depth];
   }
   return is_found;
 }

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace pcl_uvol::detail {
 
@@ -66,6 +68,7 @@ SimpleCell::start(double half_side, Ties ties)
       face_[faces_++] = {
           side * Vector3d::Unit(axis), half_side, 1.0, CellSearch::no_sample};
     }
+  sq_lengths_.clear();
   is_final_.clear();
   corners_.clear();
   for (const std::uint16_t x : {0, 1})
@@ -108,7 +111,7 @@ SimpleCell::cut(const Face& face)
   if (heights & 2) {
     if (ties_ == Ties::Refuse)
       return Cut::Unsure;
-    if (!keepTies(face.length))
+    if (!keepTies(face.length, margin))
       return Cut::Nothing;
   }
   const std::size_t own = findEmptyFace();
@@ -119,14 +122,14 @@ SimpleCell::cut(const Face& face)
 }
 
 bool
-SimpleCell::keepTies(double length)
+SimpleCell::keepTies(double length, double most)
 {
   bool is_part = false;
   for (std::size_t v = 0; v < vertices_; ++v) {
-    const bool is_over =
-        heights_[v] > 0.0 && heights_[v] > unsure_height * length * getVertex(v).norm();
-    heights_[v] = is_over ? heights_[v] : std::min(heights_[v], 0.0);
-    is_part = is_part || is_over;
+    if (heights_[v] > 0.0 && heights_[v] <= most &&
+        heights_[v] <= unsure_height * length * std::sqrt(sq_lengths_[v]))
+      heights_[v] = 0.0;
+    is_part = is_part || heights_[v] > 0.0;
   }
   return is_part;
 }
@@ -134,13 +137,49 @@ SimpleCell::keepTies(double length)
 bool
 SimpleCell::replaceVertices(std::uint16_t face)
 {
-  std::size_t kept = 0;
+  takeVertices();
+  if (ties_ == Ties::Keep && !isRimSimple()) {
+    // Rounding has torn the vertices over the plane apart.
+    returnVertices();
+    joinVertices();
+    takeVertices();
+  }
+  bool is_reach_known = true;
+  std::size_t kept = removed_.front().number;
+  for (std::size_t v = kept; v < vertices_; ++v)
+    if (heights_[v] > 0.0)
+      is_reach_known = is_reach_known && sq_lengths_[v] < sq_reach_;
+    else {
+      x_[kept] = x_[v];
+      y_[kept] = y_[v];
+      z_[kept] = z_[v];
+      sq_lengths_[kept] = sq_lengths_[v];
+      is_final_[kept] = is_final_[v];
+      corners_[kept++] = corners_[v];
+    }
+  vertices_ = kept;
+  sq_lengths_.resize(kept);
+  is_final_.resize(kept);
+  corners_.resize(kept);
+  if (!is_reach_known)
+    sq_reach_ = kept > 0 ? *std::max_element(sq_lengths_.begin(), sq_lengths_.end()) : 0.0;
+  for (const RimEdge& edge : rim_)
+    if (!addVertex(edge.a, edge.b, face)) {
+      if (ties_ == Ties::Refuse)
+        return false;
+      addCrossing(edge, face);
+    }
+  return true;
+}
+
+void
+SimpleCell::takeVertices()
+{
   removed_.clear();
-  sq_reach_ = 0.0;
   for (std::size_t v = 0; v < vertices_; ++v)
     if (heights_[v] > 0.0) {
       const Corner& corner = corners_[v];
-      removed_.push_back({getVertex(v), heights_[v], corner});
+      removed_.push_back({v, getVertex(v), heights_[v], corner});
       for (std::size_t k = 0; k < 3; ++k) {
         const std::uint16_t next = corner[(k + 1) % 3];
         removed_edges_[corner[k] * words_ + next / 64] |= std::uint64_t{1}
@@ -148,35 +187,73 @@ SimpleCell::replaceVertices(std::uint16_t face)
         --uses_[corner[k]];
       }
     }
-    else {
-      x_[kept] = x_[v];
-      y_[kept] = y_[v];
-      z_[kept] = z_[v];
-      is_final_[kept] = is_final_[v];
-      corners_[kept++] = corners_[v];
-      sq_reach_ = std::max(sq_reach_, x_[v] * x_[v] + y_[v] * y_[v] + z_[v] * z_[v]);
-    }
-  vertices_ = kept;
-  is_final_.resize(kept);
-  corners_.resize(kept);
   // Edges of one removed triangle alone are the rim that the new face's triangles
   // close.
-  bool is_sure = true;
-  for (const Vertex& removed : removed_)
+  rim_.clear();
+  for (std::size_t i = 0; i < removed_.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint16_t a = removed.corner[k], b = removed.corner[(k + 1) % 3];
-      if ((removed_edges_[b * words_ + a / 64] >> (a % 64) & 1u) != 0)
-        continue;
-      if (!addVertex(a, b, face)) {
-        is_sure = ties_ == Ties::Keep;
-        if (is_sure)
-          addCrossing(removed, a, b, face);
-      }
+      const std::uint16_t a = removed_[i].corner[k], b = removed_[i].corner[(k + 1) % 3];
+      if ((removed_edges_[b * words_ + a / 64] >> (a % 64) & 1u) == 0)
+        rim_.push_back({a, b, i});
     }
   for (const Vertex& removed : removed_)
     for (std::size_t k = 0; k < 3; ++k)
       removed_edges_[removed.corner[k] * words_ + removed.corner[(k + 1) % 3] / 64] = 0;
-  return is_sure;
+}
+
+void
+SimpleCell::returnVertices()
+{
+  for (const Vertex& removed : removed_)
+    for (const std::uint16_t face : removed.corner)
+      ++uses_[face];
+}
+
+bool
+SimpleCell::isRimSimple()
+{
+  if (rim_.empty())
+    return false;
+  next_on_rim_.resize(faces_);
+  for (const RimEdge& edge : rim_)
+    next_on_rim_[edge.a] = edge.b;
+  std::size_t steps = 1;
+  for (std::uint16_t at = rim_.front().b; at != rim_.front().a && steps <= rim_.size();
+       at = next_on_rim_[at])
+    ++steps;
+  return steps == rim_.size();
+}
+
+void
+SimpleCell::joinVertices()
+{
+  std::vector<std::pair<std::size_t, std::size_t>> edges;
+  forEdges([&](std::uint16_t, std::uint16_t, std::size_t from, std::size_t to) {
+    edges.emplace_back(from, to);
+  });
+  std::vector<char> is_joined(vertices_, false);
+  const auto join = [&](std::size_t first) {
+    const bool is_over = heights_[first] > 0.0;
+    is_joined[first] = true;
+    for (bool is_larger = true; is_larger;) {
+      is_larger = false;
+      for (const auto& [from, to] : edges)
+        if (is_joined[from] != is_joined[to] && (heights_[from] > 0.0) == is_over &&
+            (heights_[to] > 0.0) == is_over)
+          is_joined[from] = is_joined[to] = is_larger = true;
+    }
+  };
+  const auto end = heights_.begin() + static_cast<std::ptrdiff_t>(vertices_);
+  const auto [lowest, highest] = std::minmax_element(heights_.begin(), end);
+  const auto first = static_cast<std::size_t>(lowest - heights_.begin());
+  join(static_cast<std::size_t>(highest - heights_.begin()));
+  for (std::size_t v = 0; v < vertices_; ++v)
+    if (heights_[v] > 0.0 && !is_joined[v])
+      heights_[v] = 0.0;
+  join(first);
+  for (std::size_t v = 0; v < vertices_; ++v)
+    if (!is_joined[v])
+      heights_[v] = std::numeric_limits<double>::min();
 }
 
 bool
@@ -204,30 +281,29 @@ SimpleCell::addVertex(const Vector3d& place, const Corner& corner)
   x_[vertices_] = place.x();
   y_[vertices_] = place.y();
   z_[vertices_++] = place.z();
+  sq_lengths_.push_back(place.squaredNorm());
   is_final_.push_back(false);
   corners_.push_back(corner);
   for (const std::uint16_t face : corner)
     ++uses_[face];
-  sq_reach_ = std::max(sq_reach_, place.squaredNorm());
+  sq_reach_ = std::max(sq_reach_, sq_lengths_.back());
 }
 
 void
-SimpleCell::addCrossing(const Vertex& removed,
-                        std::uint16_t a,
-                        std::uint16_t b,
-                        std::uint16_t c)
+SimpleCell::addCrossing(const RimEdge& edge, std::uint16_t face)
 {
   // The kept end of the edge has both faces the other way round.
+  const Vertex& removed = removed_[edge.removed];
   Vector3d place = removed.place;
   for (std::size_t v = 0; v < vertices_; ++v)
     for (std::size_t k = 0; k < 3; ++k)
-      if (corners_[v][k] == b && corners_[v][(k + 1) % 3] == a) {
-        const Face& plane = face_[c];
+      if (corners_[v][k] == edge.b && corners_[v][(k + 1) % 3] == edge.a) {
+        const Face& plane = face_[face];
         const Vector3d end = getVertex(v);
         const double height = std::min(0.0, plane.offset.dot(end) - plane.limit);
         place = end + height / (height - removed.height) * (removed.place - end);
       }
-  addVertex(place, {a, b, c});
+  addVertex(place, {edge.a, edge.b, face});
 }
 
 std::size_t
@@ -266,14 +342,27 @@ SimpleCell::findOpenVertex(double sq_limit, std::size_t& found) const
 {
   bool is_found = false;
   for (std::size_t v = 0; v < vertices_; ++v) {
-    const double sq_length = getVertex(v).squaredNorm();
-    if (sq_length <= sq_limit || is_final_[v])
+    if (sq_lengths_[v] <= sq_limit || is_final_[v])
       continue;
-    sq_limit = sq_length;
+    sq_limit = sq_lengths_[v];
     found = v;
     is_found = true;
   }
   return is_found;
+}
+
+void
+SimpleCell::setFinal(std::size_t vertex)
+{
+  is_final_[vertex] = true;
+  if (ties_ == Ties::Refuse)
+    return;
+  const Vector3d place = getVertex(vertex);
+  const double margin = unsure_height * sq_lengths_[vertex];
+  for (std::size_t v = 0; v < vertices_; ++v)
+    if (std::abs(sq_lengths_[v] - sq_lengths_[vertex]) <= margin &&
+        (getVertex(v) - place).squaredNorm() <= unsure_height * margin)
+      is_final_[v] = true;
 }
 
 bool

@@ -135,12 +135,9 @@ public:
   bool
   findOpenVertex(double sq_limit, std::size_t& found) const;
 
-  /** \brief No sample cuts off that vertex. */
+  /** \brief No sample cuts off that vertex, nor others at the same place. */
   void
-  setFinal(std::size_t vertex)
-  {
-    is_final_[vertex] = true;
-  }
+  setFinal(std::size_t vertex);
 
   const CellKernels&
   getKernels() const
@@ -170,9 +167,16 @@ private:
   static constexpr std::uint32_t no_place = 0xffffffffu;
 
   struct Vertex {
+    std::size_t number;
     Eigen::Vector3d place;
     double height; ///< over the plane that removes it
     Corner corner;
+  };
+
+  /** An edge of one removed vertex' triangle alone. */
+  struct RimEdge {
+    std::uint16_t a, b;
+    std::size_t removed; ///< number among the removed vertices
   };
 
   Cut
@@ -194,14 +198,33 @@ private:
 
   /** Lower vertices on a plane, but for rounding, to it.
    * \param length of its normal
+   * \param most higher ones are known to be no ties
    * \return false if none is left over it */
   bool
-  keepTies(double length);
+  keepTies(double length, double most);
 
   /** Put a face to the place of the vertices of positive height.
    * \return false if a vertex of it is undefined */
   bool
   replaceVertices(std::uint16_t face);
+
+  /** List the vertices of positive height, and their rim, and stop counting them. */
+  void
+  takeVertices();
+
+  /** Count them again. */
+  void
+  returnVertices();
+
+  /** Whether the rim is one loop, as for a plane. */
+  bool
+  isRimSimple();
+
+  /** Give all vertices but those that edges join to the highest one, on the plane's
+   * upper side, and to the lowest one, on its lower side, to the other side: then the
+   * rim is one loop. */
+  void
+  joinVertices();
 
   /** Make the place where three planes meet a vertex.
    * \return false if they are parallel to one line, but for rounding, or turn the other
@@ -212,9 +235,9 @@ private:
   void
   addVertex(const Eigen::Vector3d& place, const Corner& corner);
 
-  /** Make a vertex where the edge from a removed vertex crosses the plane. */
+  /** Make a vertex where an edge crosses the plane of a face. */
   void
-  addCrossing(const Vertex& removed, std::uint16_t a, std::uint16_t b, std::uint16_t c);
+  addCrossing(const RimEdge& edge, std::uint16_t face);
 
   /** \return most_faces if there is none left */
   std::size_t
@@ -235,9 +258,12 @@ private:
   /** A bit for each edge of removed vertices, from face to face; 0 between cuts. */
   std::vector<std::uint64_t> removed_edges_;
   std::vector<double> x_, y_, z_, heights_;
+  std::vector<double> sq_lengths_; ///< of vertices
   std::vector<char> is_final_;
   std::vector<Corner> corners_;
   std::vector<Vertex> removed_;
+  std::vector<RimEdge> rim_;
+  std::vector<std::uint16_t> next_on_rim_; ///< of faces
   mutable std::vector<std::uint32_t> chains_, next_; ///< of forEdges()
 };
 
