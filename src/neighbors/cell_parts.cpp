@@ -58,7 +58,9 @@ CellParts::findPart(const SimpleCell& cell, std::uint16_t face)
     if (cell.getFace(other).sample != CellSearch::no_sample)
       cutBy(other);
   for (std::size_t vertex; part_.findOpenVertex(-1.0, vertex);) {
-    const std::uint16_t nearest = findNearest(vertex);
+    // Those on the face are vertices of the cell.
+    const std::uint16_t nearest =
+        part_.isOnFaceOf(vertex, face) ? face : findNearest(vertex);
     if (nearest == face || part_.hasFaceOf(nearest) ||
         cutBy(nearest) != SimpleCell::Cut::Part)
       part_.setFinal(vertex);

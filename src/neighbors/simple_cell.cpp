@@ -27,6 +27,9 @@ constexpr double unsure_height = 1e-11;
  * is less, rounding moves the vertex by more than unsure_height. */
 constexpr double least_volume = 1e-4;
 
+/** Less than all squared lengths: of vertices that are final. */
+constexpr double final_length = -1.0;
+
 /** Twice the distance of the farthest vertex, and some: samples farther away cut
  * nothing off. */
 constexpr double most_reaches = 2.0 + 1e-9;
@@ -69,7 +72,8 @@ SimpleCell::start(double half_side, Ties ties)
           side * Vector3d::Unit(axis), half_side, 1.0, CellSearch::no_sample};
     }
   sq_lengths_.clear();
-  is_final_.clear();
+  open_.clear();
+  final_place_.setConstant(std::numeric_limits<double>::infinity());
   corners_.clear();
   for (const std::uint16_t x : {0, 1})
     for (const std::uint16_t y : {2, 3})
@@ -154,12 +158,12 @@ SimpleCell::replaceVertices(std::uint16_t face)
       y_[kept] = y_[v];
       z_[kept] = z_[v];
       sq_lengths_[kept] = sq_lengths_[v];
-      is_final_[kept] = is_final_[v];
+      open_[kept] = open_[v];
       corners_[kept++] = corners_[v];
     }
   vertices_ = kept;
   sq_lengths_.resize(kept);
-  is_final_.resize(kept);
+  open_.resize(kept);
   corners_.resize(kept);
   if (!is_reach_known)
     sq_reach_ = kept > 0 ? *std::max_element(sq_lengths_.begin(), sq_lengths_.end()) : 0.0;
@@ -282,7 +286,7 @@ SimpleCell::addVertex(const Vector3d& place, const Corner& corner)
   y_[vertices_] = place.y();
   z_[vertices_++] = place.z();
   sq_lengths_.push_back(place.squaredNorm());
-  is_final_.push_back(false);
+  open_.push_back(sq_lengths_.back());
   corners_.push_back(corner);
   for (const std::uint16_t face : corner)
     ++uses_[face];
@@ -338,39 +342,38 @@ SimpleCell::dropEmptyFaces()
 }
 
 bool
-SimpleCell::findOpenVertex(double sq_limit, std::size_t& found) const
+SimpleCell::findOpenVertex(double sq_limit, std::size_t& found)
 {
-  bool is_found = false;
-  for (std::size_t v = 0; v < vertices_; ++v) {
-    if (sq_lengths_[v] <= sq_limit || is_final_[v])
-      continue;
-    sq_limit = sq_lengths_[v];
-    found = v;
-    is_found = true;
+  for (;;) {
+    double sq_most = sq_limit;
+    found = vertices_;
+    for (std::size_t v = 0; v < vertices_; ++v)
+      if (open_[v] > sq_most) {
+        sq_most = open_[v];
+        found = v;
+      }
+    if (found == vertices_)
+      return false;
+    if (ties_ == Ties::Refuse || (getVertex(found) - final_place_).squaredNorm() >
+                                     unsure_height * unsure_height * sq_most)
+      return true;
+    open_[found] = final_length;
   }
-  return is_found;
 }
 
 void
 SimpleCell::setFinal(std::size_t vertex)
 {
-  is_final_[vertex] = true;
-  if (ties_ == Ties::Refuse)
-    return;
-  const Vector3d place = getVertex(vertex);
-  const double margin = unsure_height * sq_lengths_[vertex];
-  for (std::size_t v = 0; v < vertices_; ++v)
-    if (std::abs(sq_lengths_[v] - sq_lengths_[vertex]) <= margin &&
-        (getVertex(v) - place).squaredNorm() <= unsure_height * margin)
-      is_final_[v] = true;
+  open_[vertex] = final_length;
+  final_place_ = getVertex(vertex);
 }
 
 bool
-SimpleCell::isOfCube(std::size_t vertex) const
+SimpleCell::isOnFaceOf(std::size_t vertex, std::uint32_t sample) const
 {
   const auto& corner = corners_[vertex];
-  return std::any_of(corner.begin(), corner.end(), [this](std::uint16_t face) {
-    return face_[face].sample == CellSearch::no_sample;
+  return std::any_of(corner.begin(), corner.end(), [&](std::uint16_t face) {
+    return face_[face].sample == sample;
   });
 }
 
@@ -438,7 +441,7 @@ SimpleCellFinder::find(const CellSearch& around)
   for (std::size_t vertex; cell_.findOpenVertex(0.25 * around.getSqKnown(), vertex);) {
     std::uint32_t sample;
     if (!around.findInBall(cell_.getVertex(vertex), sample)) {
-      if (cell_.isOfCube(vertex))
+      if (cell_.isOnFaceOf(vertex, CellSearch::no_sample))
         return false;
       cell_.setFinal(vertex);
     }
@@ -463,7 +466,7 @@ SimpleCellFinder::findAny(const CellSearch& around)
         !cell_.hasFaceOf(sample) &&
         cell_.cut(around.offsetOf(sample), sample) == SimpleCell::Cut::Part)
       continue;
-    is_bounded = !cell_.isOfCube(vertex);
+    is_bounded = !cell_.isOnFaceOf(vertex, CellSearch::no_sample);
     cell_.setFinal(vertex);
   }
   cell_.dropEmptyFaces();

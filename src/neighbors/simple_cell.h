@@ -130,12 +130,12 @@ public:
   }
 
   /** \brief Find the farthest vertex that is not known to be final.
-   * \param sq_limit those no farther than that are
+   * \param sq_limit those no farther than that are; >= -1
    * \return false if there is none */
   bool
-  findOpenVertex(double sq_limit, std::size_t& found) const;
+  findOpenVertex(double sq_limit, std::size_t& found);
 
-  /** \brief No sample cuts off that vertex, nor others at the same place. */
+  /** \brief No sample cuts off that vertex. */
   void
   setFinal(std::size_t vertex);
 
@@ -145,9 +145,9 @@ public:
     return *kernels_;
   }
 
-  /** \brief Whether a face of a vertex is one of the cube's. */
+  /** \brief Whether a vertex is on a face of a sample, or of the cube: no_sample. */
   bool
-  isOfCube(std::size_t vertex) const;
+  isOnFaceOf(std::size_t vertex, std::uint32_t sample) const;
 
   /** \brief Whether a sample has cut the cell, and its face is still there. */
   bool
@@ -259,7 +259,8 @@ private:
   std::vector<std::uint64_t> removed_edges_;
   std::vector<double> x_, y_, z_, heights_;
   std::vector<double> sq_lengths_; ///< of vertices
-  std::vector<char> is_final_;
+  std::vector<double> open_; ///< squared lengths of vertices that are not final
+  Eigen::Vector3d final_place_; ///< of the last final one: others can be there, too
   std::vector<Corner> corners_;
   std::vector<Vertex> removed_;
   std::vector<RimEdge> rim_;

@@ -86,7 +86,7 @@ TEST(SimpleCell, IsACubeFirst)
   EXPECT_EQ(6u, cell.getNumFaces());
   EXPECT_EQ(8u, cell.getNumVertices());
   EXPECT_EQ(12.0, cell.getSqReach());
-  EXPECT_TRUE(cell.isOfCube(3));
+  EXPECT_TRUE(cell.isOnFaceOf(3, CellSearch::no_sample));
 }
 
 /** A box of 2 x 4 x 6 about the origin: areas by distances, with their centroids. */
