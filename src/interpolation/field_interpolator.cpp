@@ -30,6 +30,11 @@ namespace {
 
 constexpr std::size_t block_points = 1u << 14;
 constexpr std::size_t block_queries = 512;
+
+/** Few queries are divided into about so many blocks, since they can differ much in
+ * work. */
+constexpr std::size_t usual_blocks = 32;
+constexpr std::size_t fewest_queries = 64;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 std::unique_ptr<FieldModel>
@@ -380,7 +385,9 @@ FieldInterpolator::answer(const std::vector<std::array<double, 3>>& queries,
         sources.push_back(static_cast<std::uint32_t>(i));
     places.resize(sources.size());
     const auto order = orderInSpace(places, boxOf(*group.sampled.samples), threads);
-    parallelBlocks(order.size(), block_queries, threads, [&](auto begin, auto end) {
+    const std::size_t size =
+        std::clamp(order.size() / usual_blocks, fewest_queries, block_queries);
+    parallelBlocks(order.size(), size, threads, [&](auto begin, auto end) {
       std::vector<Query> block;
       for (std::size_t i = begin; i < end; ++i)
         block.push_back(places[order[i]]);

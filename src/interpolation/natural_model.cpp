@@ -71,6 +71,11 @@ NaturalNeighborFinder::takeCell(bool needs_check)
     // The face moves with the place, farther from its foot more so.
     std::copy_n(moments_[face].data(), 3, neighbors_.back().gradient.begin());
   }
+  double sum = 0.0;
+  for (const Neighbor& neighbor : neighbors_)
+    sum += neighbor.weight;
+  if (!(sum > 0.0 && std::isfinite(sum)))
+    neighbors_.clear();
   return true;
 }
 

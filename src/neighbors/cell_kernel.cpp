@@ -77,10 +77,10 @@ findNearest(const double* const* points, std::size_t count, const double* place)
   for (std::size_t lane = 0; lane < wide_lanes; ++lane)
     row[lane] = static_cast<long long>(lane);
   for (std::size_t i = 0; i < count; i += wide_lanes) {
-    const Doubles distance =
-        load<Doubles>(points[3] + i) - place[0] * load<Doubles>(points[0] + i) -
-        place[1] * load<Doubles>(points[1] + i) -
-        place[2] * load<Doubles>(points[2] + i);
+    const Doubles distance = load<Doubles>(points[3] + i) -
+                             place[0] * load<Doubles>(points[0] + i) -
+                             place[1] * load<Doubles>(points[1] + i) -
+                             place[2] * load<Doubles>(points[2] + i);
     const Longs is_nearer = distance < least;
     least = is_nearer ? distance : least;
     nearest = is_nearer ? row : nearest;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Vector kernels of Voronoi cells: vertices over a plane, the first sample that a growing
-// sphere meets, and the sample nearest to a vertex. Plain arrays, no library headers: the file is compiled once per
-// instruction set; all give the same bytes.
+// Vector kernels of Voronoi cells: vertices over a plane, the first sample that a
+// growing sphere meets, and the sample nearest to a vertex. Plain arrays, no library
+// headers: the file is compiled once per instruction set; all give the same bytes.
 #pragma once
 
 #include <cstddef>

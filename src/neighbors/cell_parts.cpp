@@ -57,12 +57,18 @@ CellParts::findPart(const SimpleCell& cell, std::uint16_t face)
   for (const std::uint16_t other : beside_[face])
     if (cell.getFace(other).sample != CellSearch::no_sample)
       cutBy(other);
+  std::vector<std::uint16_t>& tried = beside_[face];
+  tried.push_back(face);
   for (std::size_t vertex; part_.findOpenVertex(-1.0, vertex);) {
     // Those on the face are vertices of the cell.
     const std::uint16_t nearest =
         part_.isOnFaceOf(vertex, face) ? face : findNearest(vertex);
-    if (nearest == face || part_.hasFaceOf(nearest) ||
-        cutBy(nearest) != SimpleCell::Cut::Part)
+    bool is_cut = false;
+    if (std::find(tried.begin(), tried.end(), nearest) == tried.end()) {
+      tried.push_back(nearest);
+      is_cut = cutBy(nearest) == SimpleCell::Cut::Part;
+    }
+    if (!is_cut)
       part_.setFinal(vertex);
   }
 }
@@ -72,8 +78,8 @@ CellParts::findNearest(std::size_t vertex)
 {
   const Vector3d place = part_.getVertex(vertex);
   const double* const points[] = {x_.data(), y_.data(), z_.data(), limits_.data()};
-  return static_cast<std::uint16_t>(part_.getKernels().findNearest(
-      points, x_.size() - cell_padding, place.data()));
+  return static_cast<std::uint16_t>(
+      part_.getKernels().findNearest(points, x_.size() - cell_padding, place.data()));
 }
 
 } // namespace pcl_uvol::detail

@@ -32,7 +32,7 @@ private:
   findNearest(std::size_t vertex);
 
   SimpleCell part_;
-  std::vector<double> x_, y_, z_, limits_; ///< with cell_padding
+  std::vector<double> x_, y_, z_, limits_;         ///< with cell_padding
   std::vector<std::vector<std::uint16_t>> beside_; ///< faces at the edges of each
 };
 

@@ -89,9 +89,9 @@ CellSearch::findInBall(const Vector3d& vertex, std::uint32_t& found) const
     const KdBox& box = tree.getBox(node);
     double sum = 0.0;
     for (int axis = 0; axis < 3; ++axis) {
-      const double gap = std::max({static_cast<double>(box.low[axis]) - center.x[axis],
-                                   center.x[axis] - static_cast<double>(box.high[axis]),
-                                   0.0});
+      const double below = static_cast<double>(box.low[axis]) - center.x[axis],
+                   above = center.x[axis] - static_cast<double>(box.high[axis]);
+      const double gap = std::max(std::max(below, above), 0.0);
       sum += gap * gap;
     }
     return sum;

@@ -52,14 +52,15 @@ DelaunayCavity::measure(const SimpleCell& cell, const double* ratios, double* vo
 {
   start(cell);
   std::fill_n(volumes, count_, 0.0);
-  cell.forEdges([&](std::uint16_t a, std::uint16_t b, std::size_t from, std::size_t to) {
-    const double around = measureAround(cell.getFace(a).offset,
-                                        cell.getFace(b).offset,
-                                        cell.getVertex(from),
-                                        cell.getVertex(to));
-    volumes[a] += around;
-    volumes[b] += around;
-  });
+  cell.forEdges(
+      [&](std::uint16_t a, std::uint16_t b, std::size_t from, std::size_t to) {
+        const double around = measureAround(cell.getFace(a).offset,
+                                            cell.getFace(b).offset,
+                                            cell.getVertex(from),
+                                            cell.getVertex(to));
+        volumes[a] += around;
+        volumes[b] += around;
+      });
   for (std::size_t tetrahedra = 0; !fronts_.empty(); ++tetrahedra) {
     const Front front = remove(fronts_.size() - 1);
     std::uint16_t tip;

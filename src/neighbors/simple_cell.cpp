@@ -104,7 +104,8 @@ SimpleCell::cut(const Face& face)
 {
   const double margin = unsure_height * face.length * std::sqrt(sq_reach_);
   for (auto* const row : {&x_, &y_, &z_})
-    std::fill_n(row->begin() + static_cast<std::ptrdiff_t>(vertices_), cell_padding, 0.0);
+    std::fill_n(
+        row->begin() + static_cast<std::ptrdiff_t>(vertices_), cell_padding, 0.0);
   const double* const points[] = {x_.data(), y_.data(), z_.data()};
   const double plane[] = {
       face.offset.x(), face.offset.y(), face.offset.z(), face.limit};
@@ -166,7 +167,8 @@ SimpleCell::replaceVertices(std::uint16_t face)
   open_.resize(kept);
   corners_.resize(kept);
   if (!is_reach_known)
-    sq_reach_ = kept > 0 ? *std::max_element(sq_lengths_.begin(), sq_lengths_.end()) : 0.0;
+    sq_reach_ =
+        kept > 0 ? *std::max_element(sq_lengths_.begin(), sq_lengths_.end()) : 0.0;
   for (const RimEdge& edge : rim_)
     if (!addVertex(edge.a, edge.b, face)) {
       if (ties_ == Ties::Refuse)
@@ -196,7 +198,8 @@ SimpleCell::takeVertices()
   rim_.clear();
   for (std::size_t i = 0; i < removed_.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint16_t a = removed_[i].corner[k], b = removed_[i].corner[(k + 1) % 3];
+      const std::uint16_t a = removed_[i].corner[k],
+                          b = removed_[i].corner[(k + 1) % 3];
       if ((removed_edges_[b * words_ + a / 64] >> (a % 64) & 1u) == 0)
         rim_.push_back({a, b, i});
     }
@@ -268,11 +271,10 @@ SimpleCell::addVertex(std::uint16_t a, std::uint16_t b, std::uint16_t c)
   const double volume = first.offset.dot(across);
   if (!(volume > least_volume * first.length * second.length * third.length))
     return false;
-  addVertex(
-      (first.limit * across +
-       first.offset.cross(third.limit * second.offset - second.limit * third.offset)) /
-          volume,
-      {a, b, c});
+  addVertex((first.limit * across + first.offset.cross(third.limit * second.offset -
+                                                       second.limit * third.offset)) /
+                volume,
+            {a, b, c});
   return true;
 }
 
@@ -378,15 +380,6 @@ SimpleCell::isOnFaceOf(std::size_t vertex, std::uint32_t sample) const
 }
 
 bool
-SimpleCell::hasFaceOf(std::uint32_t sample) const
-{
-  for (std::size_t face = 0; face < faces_; ++face)
-    if (face_[face].sample == sample && uses_[face] > 0)
-      return true;
-  return false;
-}
-
-bool
 SimpleCell::measureFaces(double* ratios, Vector3d* moments) const
 {
   std::fill_n(ratios, faces_, 0.0);
@@ -456,16 +449,20 @@ bool
 SimpleCellFinder::findAny(const CellSearch& around)
 {
   cell_.start(around.getHalfSide(), SimpleCell::Ties::Keep);
-  for (const std::uint32_t sample : around.getNear())
+  tried_ = around.getNear();
+  for (const std::uint32_t sample : tried_)
     cell_.cut(around.offsetOf(sample), sample);
   bool is_bounded = true;
   for (std::size_t vertex;
        is_bounded && cell_.findOpenVertex(0.25 * around.getSqKnown(), vertex);) {
     std::uint32_t sample;
+    // By rounding alone, a sample that was tried can be found again.
     if (around.findInBall(cell_.getVertex(vertex), sample) &&
-        !cell_.hasFaceOf(sample) &&
-        cell_.cut(around.offsetOf(sample), sample) == SimpleCell::Cut::Part)
-      continue;
+        std::find(tried_.begin(), tried_.end(), sample) == tried_.end()) {
+      tried_.push_back(sample);
+      if (cell_.cut(around.offsetOf(sample), sample) == SimpleCell::Cut::Part)
+        continue;
+    }
     is_bounded = !cell_.isOnFaceOf(vertex, CellSearch::no_sample);
     cell_.setFinal(vertex);
   }

@@ -149,10 +149,6 @@ public:
   bool
   isOnFaceOf(std::size_t vertex, std::uint32_t sample) const;
 
-  /** \brief Whether a sample has cut the cell, and its face is still there. */
-  bool
-  hasFaceOf(std::uint32_t sample) const;
-
   /** \brief Measure the faces of a cell without empty faces.
    * \param ratios [face]: its area by the distance of its sample
    * \param moments [face]: the ratio times the face's centroid
@@ -259,12 +255,12 @@ private:
   std::vector<std::uint64_t> removed_edges_;
   std::vector<double> x_, y_, z_, heights_;
   std::vector<double> sq_lengths_; ///< of vertices
-  std::vector<double> open_; ///< squared lengths of vertices that are not final
-  Eigen::Vector3d final_place_; ///< of the last final one: others can be there, too
+  std::vector<double> open_;       ///< squared lengths of vertices that are not final
+  Eigen::Vector3d final_place_;    ///< of the last final one: others can be there, too
   std::vector<Corner> corners_;
   std::vector<Vertex> removed_;
   std::vector<RimEdge> rim_;
-  std::vector<std::uint16_t> next_on_rim_; ///< of faces
+  std::vector<std::uint16_t> next_on_rim_;           ///< of faces
   mutable std::vector<std::uint32_t> chains_, next_; ///< of forEdges()
 };
 
@@ -278,8 +274,8 @@ public:
   find(const CellSearch& around);
 
   /** \brief Find the cell of any place among any samples.
-   * \return false if the cell is not bounded: the place is outside of the convex hull of
-   * the samples; getCell() is then the cell among the first samples and some others,
+   * \return false if the cell is not bounded: the place is outside of the convex hull
+   * of the samples; getCell() is then the cell among the first samples and some others,
    * within a cube far outside */
   bool
   findAny(const CellSearch& around);
@@ -291,8 +287,16 @@ public:
     return cell_;
   }
 
+  /** \brief Samples whose bisectors findAny() tried, some of them without a face. */
+  const std::vector<std::uint32_t>&
+  getTried() const
+  {
+    return tried_;
+  }
+
 private:
   SimpleCell cell_;
+  std::vector<std::uint32_t> tried_;
 };
 
 } // namespace pcl_uvol::detail

@@ -161,6 +161,32 @@ TEST(NaturalNeighborFinder, LatticesAreNoTrouble)
   }
 }
 
+/** Nodes of a structured grid, a thousand times as far apart along its layers as
+ * across. */
+TEST(NaturalNeighborFinder, CoordinatesReproduceThePlaceInLayers)
+{
+  std::vector<Position> layers;
+  for (int i = 0; i < 8 * 8 * 80; ++i) {
+    const double x = i % 8 / 8.0, y = i / 8 % 8 / 8.0;
+    layers.push_back({{static_cast<float>(x),
+                       static_cast<float>(y),
+                       static_cast<float>(1.25e-4 * (i / 64) + 0.1 * x * y)}});
+  }
+  const auto samples = buildSamples(layers);
+  for (const auto coordinates :
+       {NaturalCoordinates::Sibson, NaturalCoordinates::Laplace}) {
+    NaturalNeighborFinder finder(*samples, coordinates);
+    for (std::uint64_t i = 0; i < 20; ++i) {
+      Query query = randomQuery(i, 0.2, 0.7);
+      query.x[2] = 0.01 * query.x[2] + 0.1 * query.x[0] * query.x[1];
+      query = inUnit(*samples, query);
+      ASSERT_TRUE(find(finder, *samples, query));
+      EXPECT_GT(finder.getNeighbors().size(), 100u);
+      expectLinearPrecision(*samples, query, finder.getNeighbors());
+    }
+  }
+}
+
 /** Sibson's coordinates: the part of the cell that was nearest to each sample. */
 void
 expectStolenVolumes(const std::vector<Position>& positions, std::uint64_t queries)
@@ -221,7 +247,7 @@ TEST(NaturalNeighborFinder, SibsonsCoordinatesAreStolenVolumes)
   expectStolenVolumes(randomPositions(300, 3), 4);
 }
 
-/** There faces are polygons. */
+/** There planes meet by four and more. */
 TEST(NaturalNeighborFinder, SibsonsCoordinatesAreStolenVolumesInLattices)
 {
   expectStolenVolumes(lattice(8), 2);

@@ -141,4 +141,32 @@ TEST(CellKernel, FindsTheFirstPointOfAGrowingSphere)
   }
 }
 
+/** By squared distances, and the first one of two at one place. */
+TEST(CellKernel, FindsTheNearestPoint)
+{
+  for (const std::size_t count : {1u, 4u, 9u, 16u, 23u}) {
+    Points points(count);
+    for (auto& row : points.rows)
+      row[count - 1] = row[count / 2];
+    for (std::size_t q = 0; q < 20; ++q) {
+      const double place[] = {
+          uniformAt(6, q, 0), uniformAt(6, q, 1) - 1.0, uniformAt(6, q, 2)};
+      double least = infinity;
+      std::size_t nearest = 0;
+      for (std::size_t i = 0; i < count; ++i) {
+        double sum = 0.0;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          sum += std::pow(points.rows[axis][i] - place[axis], 2);
+        if (sum < least) {
+          least = sum;
+          nearest = i;
+        }
+      }
+      uvol_test::forLevels(kernels, [&](const CellKernels* kernel) {
+        EXPECT_EQ(nearest, kernel->findNearest(points.pointers, count, place));
+      });
+    }
+  }
+}
+
 } // namespace

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cells kept as triangles of their faces, and the hole of the triangulation below them,
-// against cells of polygons, cubes, and counted and moved places.
+// Cells kept as triangles of their faces, their parts, and the hole of the
+// triangulation below them, against cells of polygons, cubes, and counted and moved
+// places.
 #include "common/random.h"
+#include "src/neighbors/cell_parts.h"
 #include "src/neighbors/delaunay_cavity.h"
 #include "src/neighbors/voronoi_cell.h"
 
@@ -38,6 +40,45 @@ buildRandomSamples(std::size_t n, std::uint64_t seed)
       positions[i][axis] =
           static_cast<float>(uniformAt(seed, i, static_cast<std::uint64_t>(axis)));
   return buildSamples(positions);
+}
+
+/** Height of the layers of nodes over a wall. */
+double
+heightOfLayer(int layer)
+{
+  return 1e-3 * (std::pow(1.1, layer) - 1.0);
+}
+
+constexpr int num_layers = 60;
+
+/** Nodes of a structured grid over a wall, a thousand times as far apart along it as
+ * across.
+ * \param bend how much the wall rises */
+SampleSet::ConstPtr
+buildLayers(double bend)
+{
+  std::vector<Position> positions;
+  for (int layer = 0; layer < num_layers; ++layer)
+    for (int j = 0; j < 12; ++j)
+      for (int i = 0; i < 12; ++i) {
+        const double x = i / 10.0, y = j / 10.0;
+        positions.push_back(
+            {{static_cast<float>(x),
+              static_cast<float>(y),
+              static_cast<float>(heightOfLayer(layer) + bend * x * x)}});
+      }
+  return buildSamples(positions);
+}
+
+/** A place in the lower layers. */
+Query
+placeInLayers(const SampleSet& samples, double bend, std::uint64_t index)
+{
+  const double factor = static_cast<double>(samples.getUnit().factor),
+               x = 0.3 + 0.5 * uniformAt(10, index, 0),
+               y = 0.3 + 0.5 * uniformAt(10, index, 1),
+               z = heightOfLayer(num_layers / 2) * uniformAt(10, index, 2);
+  return {{factor * x, factor * y, factor * (z + bend * x * x)}};
 }
 
 Query
@@ -129,6 +170,37 @@ TEST(SimpleCell, IsUnsureOfPlanesThroughVertices)
   EXPECT_EQ(SimpleCell::Cut::Nothing, cell.cut({2.01, 0.0, 0.0}, 0));
 }
 
+/** Planes through one vertex of the cube, but for rounding and a little more: whatever
+ * is taken to be over them, the cell is closed, and below all of them. */
+TEST(SimpleCell, StaysClosedWhereManyPlanesMeet)
+{
+  const Vector3d vertex(1.0, 1.0, 1.0);
+  for (const double noise : {0.0, 1e-15, 1e-11, 1e-10, 1e-6})
+    for (std::uint64_t trial = 0; trial < 100; ++trial) {
+      SimpleCell cell;
+      cell.start(1.0, SimpleCell::Ties::Keep);
+      std::vector<SimpleCell::Face> planes;
+      for (std::uint32_t i = 0; i < 40; ++i) {
+        // Nearly parallel ones, some of them.
+        Vector3d normal;
+        for (int axis = 0; axis < 3; ++axis)
+          normal[axis] = 0.01 + uniformAt(trial, i, static_cast<std::uint64_t>(axis));
+        if (i % 2 == 1)
+          normal = planes.back().offset + 1e-5 * normal;
+        const double limit =
+            normal.dot(vertex) + noise * (uniformAt(trial, i, 3) - 0.5);
+        ASSERT_NE(SimpleCell::Cut::Unsure, cell.cut(normal, limit, i));
+        planes.push_back({normal, limit, normal.norm(), i});
+      }
+      cell.dropEmptyFaces();
+      EXPECT_EQ(2 * cell.getNumFaces() - 4, cell.getNumVertices());
+      EXPECT_GT(cell.computeVolume(), 0.0);
+      for (std::size_t v = 0; v < cell.getNumVertices(); ++v)
+        for (const SimpleCell::Face& plane : planes)
+          EXPECT_LT(plane.offset.dot(cell.getVertex(v)) - plane.limit, 1e-9);
+    }
+}
+
 /** Bisectors of places on a sphere, each of which leaves a face: more than there is
  * room for in the beginning. */
 TEST(SimpleCell, HasRoomForManyFaces)
@@ -214,6 +286,60 @@ TEST(SimpleCellFinder, FindsTheCellsOfPolygons)
   EXPECT_GT(found, 295u);
 }
 
+/** Also where four nodes are on a circle, and faces are hundreds. */
+TEST(SimpleCellFinder, FindsAnyCellOfPolygons)
+{
+  SimpleCellFinder simple;
+  VoronoiCellFinder polygons;
+  std::size_t most_faces = 0;
+  for (const double bend : {0.0, 0.2}) {
+    const auto samples = buildLayers(bend);
+    CellSearch search(*samples);
+    for (std::uint64_t i = 0; i < 10; ++i) {
+      startAround(search, *samples, placeInLayers(*samples, bend, i), 60);
+      ASSERT_TRUE(polygons.find(search));
+      ASSERT_TRUE(simple.findAny(search));
+      std::map<std::uint32_t, double> differences;
+      polygons.forFaces([&](const CellFace& face) {
+        const std::uint32_t sample =
+            polygons.getNeighbors()[static_cast<std::size_t>(face.tag)];
+        differences[sample] =
+            face.polygon.computeMoments().area / search.offsetOf(sample).norm();
+      });
+      const SimpleCell& cell = simple.getCell();
+      EXPECT_EQ(2 * cell.getNumFaces() - 4, cell.getNumVertices());
+      EXPECT_LE(simple.getTried().size(), 60 + 1.2 * cell.getNumFaces());
+      most_faces = std::max(most_faces, cell.getNumFaces());
+      const Measured measured(cell);
+      EXPECT_TRUE(measured.is_closed);
+      for (std::size_t face = 0; face < cell.getNumFaces(); ++face)
+        differences[cell.getFace(face).sample] -= measured.ratios[face];
+      double sum = 0.0;
+      for (const double ratio : measured.ratios)
+        sum += ratio;
+      for (const auto& [sample, difference] : differences)
+        EXPECT_NEAR(0.0, difference, 1e-9 * sum) << sample;
+    }
+  }
+  EXPECT_GT(most_faces, 100u);
+}
+
+TEST(SimpleCellFinder, FindsThatACellIsOpen)
+{
+  const auto samples = buildLayers(0.0);
+  CellSearch search(*samples);
+  SimpleCellFinder finder;
+  for (const double depth : {1e-4, 1e-2}) {
+    Query place = placeInLayers(*samples, 0.0, 1);
+    place.x[2] = -depth * static_cast<double>(samples->getUnit().factor);
+    startAround(search, *samples, place, 60);
+    EXPECT_FALSE(finder.findAny(search));
+    place.x[2] *= -1.0;
+    startAround(search, *samples, place, 60);
+    EXPECT_TRUE(finder.findAny(search));
+  }
+}
+
 TEST(SimpleCellFinder, LeavesOpenCellsAndLatticesToPolygons)
 {
   std::vector<Position> lattice;
@@ -270,45 +396,91 @@ TEST(DelaunayCavity, OfOneTetrahedron)
 
 /** The parts that the boundaries between the samples' cells, cut to the place's cell,
  * enclose: by areas of polygons, each of which is cut by all others. */
+void
+expectPartsOfPolygons(const SimpleCell& cell,
+                      const Measured& measured,
+                      const std::vector<double>& volumes)
+{
+  const std::size_t count = cell.getNumFaces();
+  ConvexPolygon polygon;
+  double volume = 0.0;
+  std::vector<double> expected;
+  for (std::size_t a = 0; a < count; ++a) {
+    const SimpleCell::Face& own = cell.getFace(a);
+    double part = measured.ratios[a] * own.limit / 3.0;
+    volume += part;
+    for (std::size_t b = 0; b < count; ++b) {
+      if (b == a)
+        continue;
+      const SimpleCell::Face& other = cell.getFace(b);
+      const CellPlane plane(other.offset - own.offset, other.limit - own.limit);
+      polygon.start(10.0 * std::sqrt(cell.getSqReach()) + std::abs(plane.height));
+      for (std::size_t c = 0; c < count && polygon.size() > 0; ++c) {
+        plane.cut(polygon, cell.getFace(c).offset, cell.getFace(c).limit, 0.0);
+        if (c != a && c != b && polygon.size() > 0)
+          plane.cut(polygon,
+                    cell.getFace(c).offset - own.offset,
+                    cell.getFace(c).limit - own.limit,
+                    0.0);
+      }
+      part += plane.height * polygon.computeMoments().area / 3.0;
+    }
+    expected.push_back(part);
+  }
+  for (std::size_t a = 0; a < count; ++a)
+    EXPECT_NEAR(expected[a], volumes[a], 1e-9 * volume + 1e-9 * std::abs(expected[a]));
+}
+
 TEST(DelaunayCavity, MeasuresThePartsOfPolygons)
 {
   const auto samples = buildRandomSamples(3000, 2);
   CellSearch search(*samples);
   SimpleCellFinder finder;
   DelaunayCavity cavity;
-  ConvexPolygon polygon;
+  CellParts parts;
   for (std::uint64_t i = 0; i < 100; ++i) {
     startAround(search, *samples, randomPlace(*samples, i), 60);
     if (!finder.find(search))
       continue;
     const SimpleCell& cell = finder.getCell();
-    const std::size_t count = cell.getNumFaces();
     const Measured measured(cell);
     ASSERT_TRUE(measured.is_closed);
     std::vector<double> volumes(cell.getNumFaces());
     ASSERT_TRUE(cavity.measure(cell, measured.ratios.data(), volumes.data()));
-    double volume = 0.0;
-    for (std::size_t a = 0; a < count; ++a) {
-      const SimpleCell::Face& own = cell.getFace(a);
-      double expected = measured.ratios[a] * own.limit / 3.0;
-      volume += expected;
-      for (std::size_t b = 0; b < count; ++b) {
-        if (b == a)
-          continue;
-        const SimpleCell::Face& other = cell.getFace(b);
-        const CellPlane plane(other.offset - own.offset, other.limit - own.limit);
-        polygon.start(10.0 * std::sqrt(cell.getSqReach()) + std::abs(plane.height));
-        for (std::size_t c = 0; c < count && polygon.size() > 0; ++c) {
-          plane.cut(polygon, cell.getFace(c).offset, cell.getFace(c).limit, 0.0);
-          if (c != a && c != b && polygon.size() > 0)
-            plane.cut(polygon,
-                      cell.getFace(c).offset - own.offset,
-                      cell.getFace(c).limit - own.limit,
-                      0.0);
-        }
-        expected += plane.height * polygon.computeMoments().area / 3.0;
+    expectPartsOfPolygons(cell, measured, volumes);
+    std::fill(volumes.begin(), volumes.end(), -1.0);
+    parts.measure(cell, volumes.data());
+    expectPartsOfPolygons(cell, measured, volumes);
+  }
+}
+
+/** Sibson's identity: the volumes balance at the place. */
+TEST(CellParts, FillTheCellAmongLayers)
+{
+  SimpleCellFinder finder;
+  CellParts parts;
+  for (const double bend : {0.0, 0.2}) {
+    const auto samples = buildLayers(bend);
+    CellSearch search(*samples);
+    for (std::uint64_t i = 0; i < 30; ++i) {
+      startAround(search, *samples, placeInLayers(*samples, bend, i), 60);
+      ASSERT_TRUE(finder.findAny(search));
+      const SimpleCell& cell = finder.getCell();
+      std::vector<double> volumes(cell.getNumFaces());
+      parts.measure(cell, volumes.data());
+      const double volume = cell.computeVolume();
+      double sum = 0.0, farthest = 0.0;
+      Vector3d moment = Vector3d::Zero();
+      for (std::size_t face = 0; face < volumes.size(); ++face) {
+        EXPECT_GE(volumes[face], 0.0);
+        sum += volumes[face];
+        moment += volumes[face] * cell.getFace(face).offset;
+        farthest = std::max(farthest, cell.getFace(face).length);
       }
-      EXPECT_NEAR(expected, volumes[a], 1e-9 * volume + 1e-9 * std::abs(expected));
+      EXPECT_NEAR(volume, sum, 1e-11 * volume);
+      EXPECT_LT(moment.norm(), 1e-11 * volume * farthest);
+      if (i < 2)
+        expectPartsOfPolygons(cell, Measured(cell), volumes);
     }
   }
 }
