@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "neighbors/cell_search.h"
 
+#include "common/dispatch.h"
+#include "neighbors/nearest_kernel.h"
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <tuple>
@@ -23,10 +27,28 @@ constexpr double vertex_slack = 1e-11;
  */
 constexpr double float_rounding = 1.0 - 1e-6;
 
+const KernelTable<const NearestKernels*> kernel_table{
+    &baseline::nearest_kernels, &avx2::nearest_kernels, &avx512::nearest_kernels};
+
+/** A bound of squared distances in float, from a place that is rounded to float as
+ * well: of samples in a ball none exceeds it. */
+float
+boundInFloat(const Query& center, double sq_radius)
+{
+  const double radius = std::sqrt(sq_radius),
+               size = std::max({std::abs(center.x[0]),
+                                std::abs(center.x[1]),
+                                std::abs(center.x[2]),
+                                radius}),
+               bound = radius + std::ldexp(size, -20);
+  return static_cast<float>(bound * bound / float_rounding);
+}
+
 } // namespace
 
 CellSearch::CellSearch(const SampleSet& samples)
     : samples_(samples)
+    , kernels_(kernel_table.get())
 {
 }
 
@@ -96,6 +118,18 @@ CellSearch::findInBall(const Vector3d& vertex, std::uint32_t& found) const
     }
     return sum;
   };
+  // Most buckets that reach into the ball have no sample in it.
+  const Position rounded = center.toPosition();
+  float most = boundInFloat(center, sq_least);
+  std::array<float, KdTree::bucket_samples + kernel_room> sq_dists;
+  const auto mayHold = [&](const KdNode& bucket) {
+    kernels_->measureRun(positions.front().x,
+                         bucket.begin,
+                         bucket.begin + bucket.count,
+                         rounded.x,
+                         sq_dists.data());
+    return kernels_->countWithin(sq_dists.data(), bucket.count, most) > 0;
+  };
   std::pair<KdNode, double> stack[64];
   std::size_t depth = 0;
   KdNode node = tree.getRoot();
@@ -113,7 +147,7 @@ CellSearch::findInBall(const Vector3d& vertex, std::uint32_t& found) const
       node = nearer;
       sq_gap = to_nearer;
     }
-    if (sq_gap < sq_least)
+    if (sq_gap < sq_least && mayHold(node)) {
       for (std::uint32_t i = node.begin; i < node.begin + node.count; ++i) {
         const double sq_dist = sqDistance(center, positions[i]);
         if (sq_dist >= sq_least || i == own_)
@@ -122,6 +156,8 @@ CellSearch::findInBall(const Vector3d& vertex, std::uint32_t& found) const
         found = i;
         is_found = true;
       }
+      most = boundInFloat(center, sq_least);
+    }
     if (depth == 0)
       break;
     std::tie(node, sq_gap) = stack[--depth];

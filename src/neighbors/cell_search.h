@@ -10,7 +10,11 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl_uvol::detail {
+namespace pcl_uvol {
+
+struct NearestKernels;
+
+namespace detail {
 
 /** \brief Samples around one place after another, for those who cut out its cell. */
 class CellSearch {
@@ -63,6 +67,7 @@ public:
 
 private:
   const SampleSet& samples_;
+  const NearestKernels* kernels_;
   Query place_{};
   std::uint32_t own_ = no_sample;
   std::vector<std::uint64_t> by_distance_; ///< distances before samples, as bits
@@ -70,4 +75,6 @@ private:
   double sq_known_ = 0.0;
 };
 
-} // namespace pcl_uvol::detail
+} // namespace detail
+
+} // namespace pcl_uvol
