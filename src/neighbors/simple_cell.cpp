@@ -54,8 +54,23 @@ SimpleCell::grow()
   face_.resize(faces);
   uses_.resize(faces);
   removed_edges_.assign(faces * words_, 0);
-  for (auto* const row : {&x_, &y_, &z_, &heights_})
-    row->resize(vertices + cell_padding);
+  next_on_rim_.resize(faces);
+  chains_.resize(faces);
+  if (vertices > corners_.size())
+    growVertices(vertices);
+}
+
+void
+SimpleCell::growVertices(std::size_t room)
+{
+  for (auto* const row : {&x_, &y_, &z_, &heights_, &sq_lengths_, &open_})
+    row->resize(room + cell_padding);
+  corners_.resize(room);
+  next_.resize(4 * room);
+  removed_.resize(room);
+  removed_numbers_.resize(room);
+  removed_corners_.resize(room);
+  rim_.resize(3 * room);
 }
 
 void
@@ -71,10 +86,7 @@ SimpleCell::start(double half_side, Ties ties)
       face_[faces_++] = {
           side * Vector3d::Unit(axis), half_side, 1.0, CellSearch::no_sample};
     }
-  sq_lengths_.clear();
-  open_.clear();
   final_place_.setConstant(std::numeric_limits<double>::infinity());
-  corners_.clear();
   for (const std::uint16_t x : {0, 1})
     for (const std::uint16_t y : {2, 3})
       for (const std::uint16_t z : {4, 5})
@@ -90,39 +102,44 @@ SimpleCell::cut(const Vector3d& offset, std::uint32_t sample)
   const double sq_length = offset.squaredNorm();
   if (sq_length > most_reaches * most_reaches * sq_reach_)
     return Cut::Nothing;
-  return cut({offset, 0.5 * sq_length, std::sqrt(sq_length), sample});
+  return cut(offset, 0.5 * sq_length, sq_length, sample);
 }
 
 SimpleCell::Cut
 SimpleCell::cut(const Vector3d& offset, double limit, std::uint32_t sample)
 {
-  return cut({offset, limit, offset.norm(), sample});
+  return cut(offset, limit, offset.squaredNorm(), sample);
 }
 
 SimpleCell::Cut
-SimpleCell::cut(const Face& face)
+SimpleCell::cut(const Vector3d& offset,
+                double limit,
+                double sq_length,
+                std::uint32_t sample)
 {
-  const double margin = unsure_height * face.length * std::sqrt(sq_reach_);
+  const double margin = unsure_height * std::sqrt(sq_length * sq_reach_);
   for (auto* const row : {&x_, &y_, &z_})
     std::fill_n(
         row->begin() + static_cast<std::ptrdiff_t>(vertices_), cell_padding, 0.0);
   const double* const points[] = {x_.data(), y_.data(), z_.data()};
-  const double plane[] = {
-      face.offset.x(), face.offset.y(), face.offset.z(), face.limit};
+  const double plane[] = {offset.x(), offset.y(), offset.z(), limit};
   const unsigned heights =
       kernels_->measureHeights(points, vertices_, plane, margin, heights_.data());
   if (heights == 0)
     return Cut::Nothing;
-  if (heights & 2) {
-    if (ties_ == Ties::Refuse)
-      return Cut::Unsure;
-    if (!keepTies(face.length, margin))
-      return Cut::Nothing;
-  }
+  if ((heights & 2) && ties_ == Ties::Refuse)
+    return Cut::Unsure;
+  const double length = std::sqrt(sq_length);
+  if ((heights & 2) && !keepTies(length, margin))
+    return Cut::Nothing;
   const std::size_t own = findEmptyFace();
   if (own == most_faces)
     return Cut::Unsure;
-  face_[own] = face;
+  Face& face = face_[own];
+  face.offset = offset;
+  face.limit = limit;
+  face.length = length;
+  face.sample = sample;
   return replaceVertices(static_cast<std::uint16_t>(own)) ? Cut::Part : Cut::Unsure;
 }
 
@@ -149,86 +166,107 @@ SimpleCell::replaceVertices(std::uint16_t face)
     joinVertices();
     takeVertices();
   }
-  bool is_reach_known = true;
-  std::size_t kept = removed_.front().number;
-  for (std::size_t v = kept; v < vertices_; ++v)
-    if (heights_[v] > 0.0)
-      is_reach_known = is_reach_known && sq_lengths_[v] < sq_reach_;
-    else {
-      x_[kept] = x_[v];
-      y_[kept] = y_[v];
-      z_[kept] = z_[v];
-      sq_lengths_[kept] = sq_lengths_[v];
-      open_[kept] = open_[v];
-      corners_[kept++] = corners_[v];
-    }
-  vertices_ = kept;
-  sq_lengths_.resize(kept);
-  open_.resize(kept);
-  corners_.resize(kept);
-  if (!is_reach_known)
-    sq_reach_ =
-        kept > 0 ? *std::max_element(sq_lengths_.begin(), sq_lengths_.end()) : 0.0;
-  for (const RimEdge& edge : rim_)
+  dropVertices();
+  // Room for more vertices is room for a longer rim as well.
+  for (std::size_t i = 0; i < rim_size_; ++i) {
+    const RimEdge edge = rim_[i];
     if (!addVertex(edge.a, edge.b, face)) {
       if (ties_ == Ties::Refuse)
         return false;
       addCrossing(edge, face);
     }
+  }
   return true;
+}
+
+void
+SimpleCell::dropVertices()
+{
+  double *const x = x_.data(), *const y = y_.data(), *const z = z_.data(),
+                *const sq_lengths = sq_lengths_.data(), *const open = open_.data();
+  Corner* const corners = corners_.data();
+  bool is_reach_known = true;
+  std::size_t kept = removed_numbers_[0];
+  for (std::size_t i = 0; i < num_removed_; ++i) {
+    const std::size_t begin = removed_numbers_[i] + 1,
+                      end = i + 1 < num_removed_ ? removed_numbers_[i + 1] : vertices_;
+    is_reach_known = is_reach_known && sq_lengths[begin - 1] < sq_reach_;
+    for (std::size_t v = begin; v < end; ++v, ++kept) {
+      x[kept] = x[v];
+      y[kept] = y[v];
+      z[kept] = z[v];
+      sq_lengths[kept] = sq_lengths[v];
+      open[kept] = open[v];
+      corners[kept] = corners[v];
+    }
+  }
+  vertices_ = kept;
+  if (is_reach_known)
+    return;
+  double sq_reach = 0.0;
+  for (std::size_t v = 0; v < kept; ++v)
+    sq_reach = std::max(sq_reach, sq_lengths[v]);
+  sq_reach_ = sq_reach;
 }
 
 void
 SimpleCell::takeVertices()
 {
-  removed_.clear();
+  const double* const heights = heights_.data();
+  const Corner* const corners = corners_.data();
+  Corner* const removed = removed_corners_.data();
+  std::uint64_t* const edges = removed_edges_.data();
+  std::uint32_t* const uses = uses_.data();
+  const std::size_t words = words_;
+  std::size_t count = 0;
   for (std::size_t v = 0; v < vertices_; ++v)
-    if (heights_[v] > 0.0) {
-      const Corner& corner = corners_[v];
-      removed_.push_back({v, getVertex(v), heights_[v], corner});
+    if (heights[v] > 0.0) {
+      const Corner corner = removed[count] = corners[v];
       for (std::size_t k = 0; k < 3; ++k) {
         const std::uint16_t next = corner[(k + 1) % 3];
-        removed_edges_[corner[k] * words_ + next / 64] |= std::uint64_t{1}
-                                                          << (next % 64);
-        --uses_[corner[k]];
+        edges[corner[k] * words + next / 64] |= std::uint64_t{1} << (next % 64);
+        --uses[corner[k]];
       }
+      if (ties_ == Ties::Keep)
+        removed_[count] = {getVertex(v), heights[v]};
+      removed_numbers_[count++] = static_cast<std::uint32_t>(v);
     }
+  num_removed_ = count;
   // Edges of one removed triangle alone are the rim that the new face's triangles
   // close.
-  rim_.clear();
-  for (std::size_t i = 0; i < removed_.size(); ++i)
+  std::size_t rim_size = 0;
+  for (std::size_t i = 0; i < count; ++i)
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint16_t a = removed_[i].corner[k],
-                          b = removed_[i].corner[(k + 1) % 3];
-      if ((removed_edges_[b * words_ + a / 64] >> (a % 64) & 1u) == 0)
-        rim_.push_back({a, b, i});
+      const std::uint16_t a = removed[i][k], b = removed[i][(k + 1) % 3];
+      if ((edges[b * words + a / 64] >> (a % 64) & 1u) == 0)
+        rim_[rim_size++] = {a, b, static_cast<std::uint32_t>(i)};
     }
-  for (const Vertex& removed : removed_)
+  rim_size_ = rim_size;
+  for (std::size_t i = 0; i < count; ++i)
     for (std::size_t k = 0; k < 3; ++k)
-      removed_edges_[removed.corner[k] * words_ + removed.corner[(k + 1) % 3] / 64] = 0;
+      edges[removed[i][k] * words + removed[i][(k + 1) % 3] / 64] = 0;
 }
 
 void
 SimpleCell::returnVertices()
 {
-  for (const Vertex& removed : removed_)
-    for (const std::uint16_t face : removed.corner)
+  for (std::size_t i = 0; i < num_removed_; ++i)
+    for (const std::uint16_t face : removed_corners_[i])
       ++uses_[face];
 }
 
 bool
 SimpleCell::isRimSimple()
 {
-  if (rim_.empty())
+  if (rim_size_ == 0)
     return false;
-  next_on_rim_.resize(faces_);
-  for (const RimEdge& edge : rim_)
-    next_on_rim_[edge.a] = edge.b;
+  for (std::size_t i = 0; i < rim_size_; ++i)
+    next_on_rim_[rim_[i].a] = rim_[i].b;
   std::size_t steps = 1;
-  for (std::uint16_t at = rim_.front().b; at != rim_.front().a && steps <= rim_.size();
+  for (std::uint16_t at = rim_.front().b; at != rim_.front().a && steps <= rim_size_;
        at = next_on_rim_[at])
     ++steps;
-  return steps == rim_.size();
+  return steps == rim_size_;
 }
 
 void
@@ -263,6 +301,23 @@ SimpleCell::joinVertices()
       heights_[v] = std::numeric_limits<double>::min();
 }
 
+inline void
+SimpleCell::addVertex(const Vector3d& place, const Corner& corner)
+{
+  if (vertices_ == corners_.size()) // not of a cell without confusion
+    growVertices(2 * vertices_);
+  const double x = place.x(), y = place.y(), z = place.z(),
+               sq_length = x * x + y * y + z * z;
+  x_[vertices_] = x;
+  y_[vertices_] = y;
+  z_[vertices_] = z;
+  sq_lengths_[vertices_] = open_[vertices_] = sq_length;
+  corners_[vertices_++] = corner;
+  for (const std::uint16_t face : corner)
+    ++uses_[face];
+  sq_reach_ = std::max(sq_reach_, sq_length);
+}
+
 bool
 SimpleCell::addVertex(std::uint16_t a, std::uint16_t b, std::uint16_t c)
 {
@@ -279,27 +334,10 @@ SimpleCell::addVertex(std::uint16_t a, std::uint16_t b, std::uint16_t c)
 }
 
 void
-SimpleCell::addVertex(const Vector3d& place, const Corner& corner)
-{
-  if (vertices_ + cell_padding == x_.size()) // not of a cell without confusion
-    for (auto* const row : {&x_, &y_, &z_, &heights_})
-      row->resize(2 * row->size());
-  x_[vertices_] = place.x();
-  y_[vertices_] = place.y();
-  z_[vertices_++] = place.z();
-  sq_lengths_.push_back(place.squaredNorm());
-  open_.push_back(sq_lengths_.back());
-  corners_.push_back(corner);
-  for (const std::uint16_t face : corner)
-    ++uses_[face];
-  sq_reach_ = std::max(sq_reach_, sq_lengths_.back());
-}
-
-void
 SimpleCell::addCrossing(const RimEdge& edge, std::uint16_t face)
 {
   // The kept end of the edge has both faces the other way round.
-  const Vertex& removed = removed_[edge.removed];
+  const Removed removed = removed_[edge.removed];
   Vector3d place = removed.place;
   for (std::size_t v = 0; v < vertices_; ++v)
     for (std::size_t k = 0; k < 3; ++k)

@@ -112,21 +112,28 @@ public:
   void
   forEdges(const Visit& visit) const
   {
-    // The vertices of each face are chained: a place in a chain is 3 v + k.
-    chains_.assign(faces_, no_place);
-    next_.resize(3 * vertices_);
+    if (faces_ <= usual_faces) {
+      std::array<std::array<std::uint16_t, usual_faces>, usual_faces> vertex_of;
+      for (std::size_t v = 0; v < vertices_; ++v)
+        for (std::size_t k = 0; k < 3; ++k)
+          vertex_of[corners_[v][k]][corners_[v][(k + 1) % 3]] =
+              static_cast<std::uint16_t>(v);
+      visitEdges(visit, [&](std::uint16_t a, std::uint16_t b) {
+        return std::size_t{vertex_of[b][a]};
+      });
+      return;
+    }
+    // The vertices of each face are chained: a place in a chain is 4 v + k.
+    for (std::size_t face = 0; face < faces_; ++face)
+      chains_[face] = no_place;
     for (std::size_t v = 0; v < vertices_; ++v)
       for (std::size_t k = 0; k < 3; ++k) {
         std::uint32_t& chain = chains_[corners_[v][k]];
-        next_[3 * v + k] = chain;
-        chain = static_cast<std::uint32_t>(3 * v + k);
+        next_[4 * v + k] = chain;
+        chain = static_cast<std::uint32_t>(4 * v + k);
       }
-    for (std::size_t v = 0; v < vertices_; ++v)
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint16_t a = corners_[v][k], b = corners_[v][(k + 1) % 3];
-        if (a < b)
-          visit(a, b, v, findOtherEnd(a, b));
-      }
+    visitEdges(visit,
+               [&](std::uint16_t a, std::uint16_t b) { return findOtherEnd(a, b); });
   }
 
   /** \brief Find the farthest vertex that is not known to be final.
@@ -160,36 +167,52 @@ public:
   computeVolume() const;
 
 private:
+  static constexpr std::size_t usual_faces = 64; ///< those of random samples have 15.5
   static constexpr std::uint32_t no_place = 0xffffffffu;
 
-  struct Vertex {
-    std::size_t number;
-    Eigen::Vector3d place;
-    double height; ///< over the plane that removes it
-    Corner corner;
+  template <typename Visit, typename FindOtherEnd>
+  void
+  visitEdges(const Visit& visit, const FindOtherEnd& find) const
+  {
+    for (std::size_t v = 0; v < vertices_; ++v)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint16_t a = corners_[v][k], b = corners_[v][(k + 1) % 3];
+        if (a < b)
+          visit(a, b, v, find(a, b));
+      }
+  }
+
+  struct Removed {
+    Eigen::Vector3d place; ///< with Ties::Keep
+    double height;         ///< over the plane that removes it
   };
 
   /** An edge of one removed vertex' triangle alone. */
   struct RimEdge {
     std::uint16_t a, b;
-    std::size_t removed; ///< number among the removed vertices
+    std::uint32_t removed; ///< number among the removed vertices
   };
 
   Cut
-  cut(const Face& face);
+  cut(const Eigen::Vector3d& offset,
+      double limit,
+      double sq_length,
+      std::uint32_t sample);
 
   /** The vertex that has b before a in its corner. */
   std::size_t
   findOtherEnd(std::uint16_t a, std::uint16_t b) const
   {
     const bool is_a_shorter = uses_[a] <= uses_[b];
-    std::uint32_t place = chains_[is_a_shorter ? a : b];
-    for (; place != no_place; place = next_[place]) {
-      const Corner& corner = corners_[place / 3];
-      if (is_a_shorter ? corner[(place + 2) % 3] == b : corner[(place + 1) % 3] == a)
-        break;
+    const std::uint16_t other = is_a_shorter ? b : a;
+    const std::uint32_t to_other = is_a_shorter ? 2 : 1;
+    for (std::uint32_t place = chains_[is_a_shorter ? a : b]; place != no_place;
+         place = next_[place]) {
+      const std::uint32_t k = (place & 3u) + to_other;
+      if (corners_[place / 4][k < 3 ? k : k - 3] == other)
+        return place / 4;
     }
-    return place / 3;
+    return 0; // of no closed cell
   }
 
   /** Lower vertices on a plane, but for rounding, to it.
@@ -203,6 +226,10 @@ private:
    * \return false if a vertex of it is undefined */
   bool
   replaceVertices(std::uint16_t face);
+
+  /** Close the gaps of the vertices of positive height. */
+  void
+  dropVertices();
 
   /** List the vertices of positive height, and their rim, and stop counting them. */
   void
@@ -243,6 +270,9 @@ private:
   void
   grow();
 
+  void
+  growVertices(std::size_t room);
+
   const CellKernels* kernels_;
   Ties ties_ = Ties::Refuse;
   std::size_t faces_ = 0; ///< some of them empty
@@ -258,7 +288,10 @@ private:
   std::vector<double> open_;       ///< squared lengths of vertices that are not final
   Eigen::Vector3d final_place_;    ///< of the last final one: others can be there, too
   std::vector<Corner> corners_;
-  std::vector<Vertex> removed_;
+  std::size_t num_removed_ = 0, rim_size_ = 0;
+  std::vector<Removed> removed_;
+  std::vector<std::uint32_t> removed_numbers_; ///< ascending
+  std::vector<Corner> removed_corners_;
   std::vector<RimEdge> rim_;
   std::vector<std::uint16_t> next_on_rim_;           ///< of faces
   mutable std::vector<std::uint32_t> chains_, next_; ///< of forEdges()
