@@ -223,7 +223,9 @@ struct Candidate {
   int rank;        ///< of several columns, the first of the lowest rank is taken
 };
 
-/** In a unit of length, a height stands behind z, and before any other z. */
+/** In a unit of length, a height stands behind z, and before any other z. On maps a
+ * name with a unit, or none, stands before one with other words: "elevation" is a
+ * coordinate rather than "depth_from", and "depth" rather than "depth_qc". */
 Candidate
 makeCandidate(std::size_t column, System system, const Parts& parts)
 {
@@ -232,7 +234,10 @@ makeCandidate(std::size_t column, System system, const Parts& parts)
     return {column, has_known_unit ? "" : parts.unit, 0};
   if (system == WithUnit)
     return {column, "", parts.word.size() > 1 ? 1 : has_known_unit ? 0 : 2};
-  return {column, system == Plain ? "" : parts.before, 0};
+  const bool has_degrees = parts.unit.rfind("deg", 0) == 0;
+  return {column,
+          system == Plain ? "" : parts.before,
+          has_known_unit || has_degrees ? 0 : 1};
 }
 
 /** The three columns of a system. Where several unknown endings have three columns

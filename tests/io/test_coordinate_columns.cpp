@@ -58,6 +58,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Header{"x,y,z,rho", 1, 2, 3},
         Header{"id,X,Y,Z,T", 2, 3, 4},
+        Header{"hole,depth_from,depth_to,easting,northing,elevation,cu", 4, 5, 6},
+        Header{"lon,lat,depth_qc,depth,T", 1, 2, 4},
         Header{"z,y,x,u", 3, 2, 1},
         // units of length
         Header{"x_km,y_km,z_km,rho", 1, 2, 3},
