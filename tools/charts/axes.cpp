@@ -9,8 +9,6 @@ namespace uvol_tools {
 
 namespace {
 
-constexpr Ink black{0, 0, 0};
-
 double
 thickness(int font)
 {

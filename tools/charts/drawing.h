@@ -18,6 +18,8 @@ namespace uvol_tools {
 
 using Ink = std::array<std::uint8_t, 3>;
 
+constexpr Ink black{0, 0, 0};
+
 /** \brief A colour rounded to 8 bits. */
 Ink
 inkOf(const pcl_uvol::Color& color);

@@ -14,8 +14,9 @@ using pcl_uvol::Image;
 
 namespace {
 
-constexpr Ink black{0, 0, 0}, gray{215, 215, 215};
-constexpr Ink inks[] = {{31, 119, 180}, {255, 127, 14}, {44, 160, 44}, {148, 103, 189}};
+constexpr Ink line_gray{215, 215, 215};
+constexpr Ink line_inks[] = {
+    {31, 119, 180}, {255, 127, 14}, {44, 160, 44}, {148, 103, 189}};
 
 /** Colours of kinds of dots: the first one is black. */
 constexpr Ink dot_inks[] = {black, {255, 127, 14}, {44, 160, 44}, {214, 39, 40}};
@@ -153,7 +154,7 @@ drawProfile(const Profile& profile, const Paper& paper)
                column(k),
                row(profile.values[k]),
                sheet.line_width,
-               inks[0]);
+               line_inks[0]);
   const auto drawDot = [&](double at, double height, const Ink& ink) {
     drawLine(image, at, height, at, height, sheet.dot, ink);
   };
@@ -206,7 +207,7 @@ drawLinePlot(const std::vector<PlotLine>& lines,
 
   for (int power = decades.low; power <= decades.high; ++power) {
     const double row = y(std::pow(10.0, power));
-    drawLine(image, left, row, right, row, sheet.thin_line, gray);
+    drawLine(image, left, row, right, row, sheet.thin_line, line_gray);
     writeText(image,
               shortNumber(std::pow(10.0, power)),
               font,
@@ -237,7 +238,7 @@ drawLinePlot(const std::vector<PlotLine>& lines,
             black);
 
   for (std::size_t k = 0; k < lines.size(); ++k) {
-    const Ink& ink = inks[k % std::size(inks)];
+    const Ink& ink = line_inks[k % std::size(line_inks)];
     const std::vector<double>& values = lines[k].values;
     for (std::size_t i = 1; i < values.size(); ++i)
       if (isDrawn(values[i - 1]) && isDrawn(values[i]))

@@ -23,7 +23,7 @@ constexpr double field_of_view = 30.0; // degrees
 constexpr int largest_size = 16384;
 constexpr std::size_t most_names = 12; // of the legend
 
-constexpr Ink black{0, 0, 0}, gray{190, 190, 190}, noise{175, 175, 175};
+constexpr Ink gray{190, 190, 190}, noise{175, 175, 175};
 constexpr Ink inks[] = {{31, 119, 180},
                         {255, 127, 14},
                         {44, 160, 44},
@@ -35,7 +35,7 @@ constexpr Ink inks[] = {{31, 119, 180},
                         {23, 190, 207}};
 
 const Ink&
-inkOf(std::int32_t label)
+inkOfLabel(std::int32_t label)
 {
   return label < 0 ? noise : inks[static_cast<std::size_t>(label) % std::size(inks)];
 }
@@ -146,7 +146,7 @@ drawDots(const std::vector<std::array<float, 3>>& points,
     return a.distance != b.distance ? a.distance > b.distance : a.point < b.point;
   });
   for (const Dot& dot : dots) {
-    const Ink& ink = labels.empty() ? inks[0] : inkOf(labels[dot.point]);
+    const Ink& ink = labels.empty() ? inks[0] : inkOfLabel(labels[dot.point]);
     for (int dy = -dot_radius; dy <= dot_radius; ++dy)
       for (int dx = -dot_radius; dx <= dot_radius; ++dx) {
         const double beyond = std::hypot(dx, dy) - dot_radius;
@@ -201,7 +201,7 @@ drawLegend(const std::vector<std::int32_t>& labels, int font, Image& image)
               font,
               font + static_cast<int>(i) * (9 * font / 7),
               TextAnchor::Left,
-              known[i] < 0 ? gray : inkOf(known[i]));
+              known[i] < 0 ? gray : inkOfLabel(known[i]));
 }
 
 } // namespace

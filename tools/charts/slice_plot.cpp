@@ -18,7 +18,7 @@ constexpr std::size_t least_side = 512; ///< pixels along the longer side of the
 /** Sides of a slice, in heights of letters: less has no room for the numbers beside it.
  */
 constexpr int least_height = 5, least_width = 16;
-constexpr Ink black{0, 0, 0}, white{255, 255, 255}, ground{232, 232, 232};
+constexpr Ink white{255, 255, 255}, ground{232, 232, 232};
 constexpr double middle_gray = 128.0;
 
 /** Black on light colours, white on dark ones. */
