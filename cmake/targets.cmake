@@ -95,9 +95,7 @@ function(pcl_uvol_add_library name)
     list(FILTER sources EXCLUDE REGEX "_kernel\\.cpp$")
   endforeach()
   add_library(pcl_uvol_${name} SHARED ${sources})
-  if(NOT name STREQUAL io)
   pcl_uvol_unite(pcl_uvol_${name})
-  endif()
   add_library(pcl_uvol::${name} ALIAS pcl_uvol_${name})
   set_target_properties(pcl_uvol_${name} PROPERTIES
     EXPORT_NAME ${name} VERSION ${PROJECT_VERSION}

@@ -10,7 +10,7 @@ namespace io {
 namespace {
 
 /** Fits a cache of the second level, and calls of the system cost nothing beside it. */
-constexpr std::size_t block_bytes = std::size_t(1) << 18;
+constexpr std::size_t cursor_bytes = std::size_t(1) << 18;
 
 /** Lines of 100,000 columns have a few of them. What goes on for longer is no text, or
  * fills the memory. */
@@ -61,7 +61,7 @@ FileCursor::fill()
   }
   if (end_ == buffer_.size()) // more than a block belongs together: a long line
     buffer_.resize(std::max(
-        2 * end_, std::size_t(std::min<std::uint64_t>(block_bytes, file_.getSize()))));
+        2 * end_, std::size_t(std::min<std::uint64_t>(cursor_bytes, file_.getSize()))));
   const auto bytes =
       static_cast<std::size_t>(std::min<std::uint64_t>(buffer_.size() - end_, behind));
   char* const to = buffer_.data() + end_;

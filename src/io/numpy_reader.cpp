@@ -56,9 +56,9 @@ struct Array {
 };
 
 /** Takes the literal of Python in a header apart. */
-class HeaderParser {
+class NpyHeaderParser {
 public:
-  HeaderParser(const std::string& path, std::string_view text)
+  NpyHeaderParser(const std::string& path, std::string_view text)
       : path_(path)
       , rest_(text)
   {
@@ -102,7 +102,7 @@ private:
 };
 
 std::string
-HeaderParser::takeText()
+NpyHeaderParser::takeText()
 {
   rest_ = trimmed(rest_);
   if (rest_.empty() || (rest_[0] != '\'' && rest_[0] != '"'))
@@ -116,7 +116,7 @@ HeaderParser::takeText()
 }
 
 std::vector<std::uint64_t>
-HeaderParser::takeCounts()
+NpyHeaderParser::takeCounts()
 {
   std::vector<std::uint64_t> counts;
   expect('(');
@@ -134,7 +134,7 @@ HeaderParser::takeCounts()
 }
 
 bool
-HeaderParser::takeTruth()
+NpyHeaderParser::takeTruth()
 {
   rest_ = trimmed(rest_);
   for (const bool truth : {true, false}) {
@@ -149,7 +149,7 @@ HeaderParser::takeTruth()
 
 /** "<f4" and the like. */
 Member
-HeaderParser::takeType(const std::string& name)
+NpyHeaderParser::takeType(const std::string& name)
 {
   const std::string type = takeText();
   constexpr struct {
@@ -175,7 +175,7 @@ HeaderParser::takeType(const std::string& name)
 }
 
 void
-HeaderParser::parse(Array& array)
+NpyHeaderParser::parse(Array& array)
 {
   expect('{');
   while (!take('}')) {
@@ -241,7 +241,7 @@ readArray(const std::string& path,
   file->read(start + begin, text.data(), text.size());
   Array array;
   array.name = name;
-  HeaderParser(path, text).parse(array);
+  NpyHeaderParser(path, text).parse(array);
   array.offset = start + begin + length;
   array.file = std::move(file);
   std::uint64_t size = 0;

@@ -61,9 +61,9 @@ parseDatatype(std::string_view type, std::string_view size)
 }
 
 /** Parses the lines of a header, up to DATA. */
-class HeaderParser {
+class PcdHeaderParser {
 public:
-  explicit HeaderParser(const std::string& path)
+  explicit PcdHeaderParser(const std::string& path)
       : path_(path)
   {
   }
@@ -90,7 +90,7 @@ private:
 };
 
 std::uint64_t
-HeaderParser::countIn(const Words& words) const
+PcdHeaderParser::countIn(const Words& words) const
 {
   std::uint64_t value = 0;
   if (words.size() != 2 || !parseCount(words[1], value))
@@ -99,7 +99,7 @@ HeaderParser::countIn(const Words& words) const
 }
 
 bool
-HeaderParser::take(std::string_view line, std::size_t number)
+PcdHeaderParser::take(std::string_view line, std::size_t number)
 {
   line_ = number;
   Words words;
@@ -152,7 +152,7 @@ HeaderParser::take(std::string_view line, std::size_t number)
 }
 
 Header
-HeaderParser::finish() const
+PcdHeaderParser::finish() const
 {
   if (names_.empty() || sizes_.size() != names_.size() ||
       types_.size() != names_.size() ||
@@ -198,7 +198,7 @@ HeaderParser::finish() const
 Header
 readHeader(FileCursor& cursor, const std::string& path)
 {
-  HeaderParser parser(path);
+  PcdHeaderParser parser(path);
   std::string_view line;
   while (cursor.nextLine(line))
     if (parser.take(line, cursor.tell().line)) {

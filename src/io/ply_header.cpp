@@ -17,9 +17,9 @@ using Type = pcl::PCLPointField;
 using Words = std::vector<std::string_view>;
 
 /** Parses the lines of a header, up to end_header. */
-class HeaderParser {
+class PlyHeaderParser {
 public:
-  HeaderParser(const std::string& path, FileCursor& cursor)
+  PlyHeaderParser(const std::string& path, FileCursor& cursor)
       : path_(path)
       , cursor_(cursor)
   {
@@ -48,7 +48,7 @@ private:
 };
 
 void
-HeaderParser::takeProperty(const Words& words)
+PlyHeaderParser::takeProperty(const Words& words)
 {
   if (header_.elements.empty())
     throwInLine("a property comes before any element");
@@ -72,7 +72,7 @@ HeaderParser::takeProperty(const Words& words)
 }
 
 PlyFormat
-HeaderParser::formatIn(const Words& words) const
+PlyHeaderParser::formatIn(const Words& words) const
 {
   if (words.size() == 3 && words[1] == "ascii")
     return PlyFormat::Ascii;
@@ -85,7 +85,7 @@ HeaderParser::formatIn(const Words& words) const
 }
 
 void
-HeaderParser::takeLine(std::string_view line, const Words& words)
+PlyHeaderParser::takeLine(std::string_view line, const Words& words)
 {
   if (words[0] == "comment" && words.size() > 1)
     takeLabelComment(
@@ -109,7 +109,7 @@ HeaderParser::takeLine(std::string_view line, const Words& words)
 }
 
 PlyHeader
-HeaderParser::parse()
+PlyHeaderParser::parse()
 {
   std::string_view line;
   if (!cursor_.nextLine(line) || line != "ply")
@@ -134,7 +134,7 @@ HeaderParser::parse()
 PlyHeader
 readPlyHeader(const std::string& path, FileCursor& cursor)
 {
-  return HeaderParser(path, cursor).parse();
+  return PlyHeaderParser(path, cursor).parse();
 }
 
 } // namespace io

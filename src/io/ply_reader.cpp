@@ -154,12 +154,12 @@ private:
 };
 
 /** Vertices as lines of numbers. */
-class AsciiSource : public SequentialSource {
+class PlyAsciiSource : public SequentialSource {
 public:
-  AsciiSource(const std::string& path,
-              std::unique_ptr<FileCursor> cursor,
-              RecordInfo info,
-              const PlyElement& vertex)
+  PlyAsciiSource(const std::string& path,
+                 std::unique_ptr<FileCursor> cursor,
+                 RecordInfo info,
+                 const PlyElement& vertex)
       : SequentialSource(path, std::move(cursor), std::move(info))
       , vertex_(vertex)
   {
@@ -181,14 +181,14 @@ private:
 };
 
 void
-AsciiSource::skipRecord()
+PlyAsciiSource::skipRecord()
 {
   if (!cursor_->nextWords(words_))
     throwTruncated(path_, vertex_);
 }
 
 void
-AsciiSource::readRecord(std::uint8_t* record)
+PlyAsciiSource::readRecord(std::uint8_t* record)
 {
   skipRecord();
   std::size_t word = 0;
@@ -378,7 +378,7 @@ openPly(const std::string& path)
   RecordInfo info = makeInfo(path, *vertex, std::move(header.labels));
   const bool swapped = header.format == PlyFormat::BigEndian;
   if (header.format == PlyFormat::Ascii)
-    return std::make_unique<AsciiSource>(
+    return std::make_unique<PlyAsciiSource>(
         path, std::move(cursor), std::move(info), *vertex);
   if (vertex->hasLists())
     return std::make_unique<ListSource>(

@@ -30,7 +30,7 @@ namespace pcl_uvol {
 namespace io {
 namespace {
 
-constexpr const char* axis_names[] = {"x", "y", "z"};
+constexpr const char* solid_axes[] = {"x", "y", "z"};
 
 /** The type of a lattice's cells that lie in space. */
 bool
@@ -262,7 +262,7 @@ packCells(const SolidCells& cells)
     for (std::size_t axis = 0; axis < 3; ++axis) {
       vtkNew<vtkDoubleArray> named;
       named->DeepCopy(axes[axis]);
-      named->SetName(axis_names[axis]);
+      named->SetName(solid_axes[axis]);
       arrays.AddArray(named);
     }
     return packed;

@@ -24,7 +24,7 @@ namespace {
 using Type = pcl::PCLPointField;
 
 /** Numbers of a table that are converted together. */
-constexpr std::uint64_t block_numbers = 1u << 14;
+constexpr std::uint64_t numbers_at_once = 1u << 14;
 
 /** Rows of a column from one of them on. */
 class ShiftedColumn : public FileColumn {
@@ -229,7 +229,7 @@ VtkHdfReader::readNumbers(const std::string& name,
   std::vector<std::uint8_t> bytes;
   std::vector<double> numbers;
   while (count > 0) {
-    const auto now = static_cast<std::size_t>(std::min(count, block_numbers));
+    const auto now = static_cast<std::size_t>(std::min(count, numbers_at_once));
     bytes.resize(now * size);
     column->read(first, now, bytes.data());
     for (std::size_t i = 0; i < now; ++i)

@@ -8,11 +8,11 @@ namespace pcl_uvol::PCL_UVOL_SIMD {
 namespace {
 
 using Floats = float __attribute__((vector_size(16)));
-using Doubles = double __attribute__((vector_size(32)));
+using FourDoubles = double __attribute__((vector_size(32)));
 using Pair = double __attribute__((vector_size(16)));
 using Lines = float __attribute__((vector_size(line_lanes * sizeof(float))));
 
-constexpr std::size_t lanes = 4;
+constexpr std::size_t float_lanes = 4;
 constexpr float gone = __builtin_inff();
 
 template <typename Vector, typename T>
@@ -37,8 +37,10 @@ larger(Pair a, Pair b)
 }
 
 /** Squared distances of four positions. */
-inline Doubles
-measureFour(const float* positions, const Doubles (&point)[3], const MetricRows& metric)
+inline FourDoubles
+measureFour(const float* positions,
+            const FourDoubles (&point)[3],
+            const MetricRows& metric)
 {
   const auto a = load<Floats>(positions), b = load<Floats>(positions + 4),
              c = load<Floats>(positions + 8);
@@ -47,12 +49,13 @@ measureFour(const float* positions, const Doubles (&point)[3], const MetricRows&
       __builtin_shufflevector(__builtin_shufflevector(a, b, 1, 4, 7, 7), c, 0, 1, 2, 6),
       __builtin_shufflevector(
           __builtin_shufflevector(a, b, 2, 5, 5, 5), c, 0, 1, 4, 7)};
-  Doubles offset[3];
+  FourDoubles offset[3];
   for (int axis = 0; axis < 3; ++axis)
-    offset[axis] = __builtin_convertvector(xs[axis], Doubles) - point[axis];
-  Doubles sq_dist{};
+    offset[axis] = __builtin_convertvector(xs[axis], FourDoubles) - point[axis];
+  FourDoubles sq_dist{};
   for (const auto& row : metric.row) {
-    const Doubles image = row[0] * offset[0] + row[1] * offset[1] + row[2] * offset[2];
+    const FourDoubles image =
+        row[0] * offset[0] + row[1] * offset[1] + row[2] * offset[2];
     sq_dist += image * image;
   }
   return sq_dist;
@@ -65,27 +68,27 @@ measure(const float* positions,
         const MetricRows& metric,
         double* sq_dists)
 {
-  Doubles place[3];
+  FourDoubles place[3];
   for (int axis = 0; axis < 3; ++axis)
-    place[axis] = Doubles{} + static_cast<double>(point[axis]);
-  Doubles least = Doubles{} + __builtin_inf();
+    place[axis] = FourDoubles{} + static_cast<double>(point[axis]);
+  FourDoubles least = FourDoubles{} + __builtin_inf();
   std::size_t i = 0;
-  for (; i + lanes <= count; i += lanes) {
-    const Doubles sq_dist = measureFour(positions + 3 * i, place, metric);
+  for (; i + float_lanes <= count; i += float_lanes) {
+    const FourDoubles sq_dist = measureFour(positions + 3 * i, place, metric);
     std::memcpy(sq_dists + i, &sq_dist, sizeof(sq_dist));
     least = sq_dist < least ? sq_dist : least;
   }
   double nearest = __builtin_inf();
   if (i < count) {
-    float rest[3 * lanes] = {};
+    float rest[3 * float_lanes] = {};
     std::memcpy(rest, positions + 3 * i, 3 * sizeof(float) * (count - i));
-    const Doubles sq_dist = measureFour(rest, place, metric);
+    const FourDoubles sq_dist = measureFour(rest, place, metric);
     for (std::size_t lane = 0; lane < count - i; ++lane) {
       sq_dists[i + lane] = sq_dist[lane];
       nearest = sq_dist[lane] < nearest ? sq_dist[lane] : nearest;
     }
   }
-  for (std::size_t lane = 0; lane < lanes; ++lane)
+  for (std::size_t lane = 0; lane < float_lanes; ++lane)
     nearest = least[lane] < nearest ? least[lane] : nearest;
   return nearest;
 }

@@ -10,8 +10,8 @@ namespace pcl_uvol::PCL_UVOL_SIMD {
 namespace {
 
 #if defined(__AVX512F__)
-constexpr std::size_t lanes = 16;
-static_assert(lanes <= kernel_room, "whole registers are written");
+constexpr std::size_t wide_run = 16;
+static_assert(wide_run <= kernel_room, "whole registers are written");
 
 /** Every third of 48 floats, from the given one on. */
 __m512
@@ -78,8 +78,8 @@ keepNear(const float* positions,
   std::uint32_t i = begin;
 #if defined(__AVX512F__)
   // Compilers find neither the transposition nor the compression by themselves.
-  for (; i < end; i += static_cast<std::uint32_t>(lanes)) {
-    const std::uint32_t here = end - i < lanes ? end - i : lanes;
+  for (; i < end; i += static_cast<std::uint32_t>(wide_run)) {
+    const std::uint32_t here = end - i < wide_run ? end - i : wide_run;
     const auto [x, y, z] = transpose(positions + std::size_t(3) * i, here);
     const __m512 sq_gap = _mm512_add_ps(
         _mm512_add_ps(sqGap(x, low[0], high[0]), sqGap(y, low[1], high[1])),
@@ -141,8 +141,8 @@ measureRun(const float* positions,
   const float px = point[0], py = point[1], pz = point[2];
   std::uint32_t i = begin;
 #if defined(__AVX512F__)
-  for (; i < end; i += static_cast<std::uint32_t>(lanes)) {
-    const std::uint32_t here = end - i < lanes ? end - i : lanes;
+  for (; i < end; i += static_cast<std::uint32_t>(wide_run)) {
+    const std::uint32_t here = end - i < wide_run ? end - i : wide_run;
     const auto [x, y, z] = transpose(positions + std::size_t(3) * i, here);
     const __m512 dx = _mm512_sub_ps(x, _mm512_set1_ps(px)),
                  dy = _mm512_sub_ps(y, _mm512_set1_ps(py)),
@@ -181,7 +181,7 @@ keepWithin(const float* values,
   std::size_t kept = 0, i = 0;
 #if defined(__AVX512F__)
   const __m512 limits = _mm512_set1_ps(limit);
-  for (; i + lanes <= count; i += lanes) {
+  for (; i + wide_run <= count; i += wide_run) {
     const __m512 value = _mm512_loadu_ps(values + i);
     const __mmask16 within = _mm512_cmp_ps_mask(value, limits, _CMP_LE_OQ);
     _mm512_storeu_ps(kept_values + kept, _mm512_maskz_compress_ps(within, value));

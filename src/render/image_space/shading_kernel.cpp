@@ -1,21 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "render/image_space/shading_kernel.h"
 
-#include "render/image_space/octahedral_lanes.h"
+#include "render/image_space/camera_lanes.h"
 
 namespace pcl_uvol::PCL_UVOL_SIMD {
 
 namespace {
-
-struct Vector {
-  Floats x, y, z;
-};
-
-Floats
-dot(const Vector& a, const Vector& b)
-{
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
 
 Vector
 scaled(const Vector& a, const Floats& factor)
