@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "interpolation/bucket_fitter.h"
 
-#include "common/dispatch.h"
 #include "interpolation/blend_kernel.h"
 #include "interpolation/fit_bounds.h"
 #include "interpolation/reduced_fit.h"
@@ -13,9 +12,6 @@
 namespace pcl_uvol::detail {
 
 namespace {
-
-const KernelTable<PolynomialKernel> kernels{
-    baseline::fitPolynomials, avx2::fitPolynomials, avx512::fitPolynomials};
 
 /** Room for the sample itself, the farthest one, and an even number. */
 constexpr std::size_t most_neighbors = BucketFitter::fitted_samples + 2;
@@ -31,7 +27,7 @@ BucketFitter::BucketFitter(const SampledFields& sampled, const SampleMetrics& me
     , metrics_(metrics)
     , finder_(*sampled.samples, fitted_samples + 1)
     , stretched_finder_(*sampled.samples, fitted_samples + 1, true)
-    , kernel_(kernels.get())
+    , kernel_(polynomial_kernel_table.get())
     , samples_(most_neighbors)
     , values_(sampled.fields * most_neighbors)
     , results_(sampled.fields)

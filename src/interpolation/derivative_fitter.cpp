@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "interpolation/derivative_fitter.h"
 
-#include "common/dispatch.h"
 #include "interpolation/fit_bounds.h"
 #include "interpolation/sample_metrics.h"
 #include "interpolation/slope_fit.h"
@@ -16,9 +15,6 @@
 namespace pcl_uvol::detail {
 
 namespace {
-
-const KernelTable<PolynomialKernel> derivative_kernels{
-    baseline::fitPolynomials, avx2::fitPolynomials, avx512::fitPolynomials};
 
 /** Samples with a weight in a fit: twice the 20 terms of a cubic, as for isopoints. */
 constexpr std::size_t fitted_samples = 40;
@@ -94,7 +90,7 @@ DerivativeFitter::DerivativeFitter(const SampledFields& sampled)
     , finder_in_metric_(*sampled.samples, samples_in_metric + 1, true)
     , metrics_(*sampled.samples)
     , group_metrics_(*sampled.samples)
-    , kernel_(derivative_kernels.get())
+    , kernel_(polynomial_kernel_table.get())
     , samples_(most_fitted)
     , values_(sampled.fields * most_fitted)
     , results_(sampled.fields)

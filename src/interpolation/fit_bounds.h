@@ -1,8 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is asked of the polynomials through the neighbours of a sample.
+// The polynomials through the neighbours of a sample: their kernel, compiled for every
+// instruction set, and what is asked of them.
 #pragma once
 
+#include "common/dispatch.h"
+#include "derivatives/polynomial_kernel.h"
+
 namespace pcl_uvol::detail {
+
+constexpr KernelTable<PolynomialKernel> polynomial_kernel_table{
+    baseline::fitPolynomials, avx2::fitPolynomials, avx512::fitPolynomials};
 
 /** \brief Share of the distance of the farthest sample, where there are so few samples
  * that all of them are neighbours: none should lose its weight. */

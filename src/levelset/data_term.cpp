@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "levelset/data_term.h"
 
-#include "common/dispatch.h"
 #include "common/median.h"
 #include "common/parallel.h"
 #include "levelset/constants.h"
 #include "levelset/evolution_kernel.h"
+#include "levelset/parallel_kernels.h"
 #include "levelset/quadratic_residuals.h"
 #include "neighbors/nearest_finder.h"
 
@@ -19,17 +19,12 @@ namespace pcl_uvol {
 
 namespace {
 
-constexpr std::size_t term_groups = 64, term_fits = 64;
-
-const KernelTable<const EvolutionKernels*> term_kernels{
-    &baseline::evolution_kernels, &avx2::evolution_kernels, &avx512::evolution_kernels};
-
 /** Call body(first, last) for blocks of a band's groups, in parallel. */
 template <typename Body>
 void
 sweep(const Band& band, unsigned threads, const Body& body)
 {
-  parallelBlocks(band.stencils.groups(), term_groups, threads, body);
+  parallelBlocks(band.stencils.groups(), block_groups, threads, body);
 }
 
 /** Gradients of a field at the centres, as normal and slope. */
@@ -46,7 +41,7 @@ struct Gradients {
                           {normal[0].data(), normal[1].data(), normal[2].data()},
                           slope.data()};
     sweep(band, threads, [&](auto begin, auto end) {
-      term_kernels.get()->findNormals(step, begin, end);
+      evolution_kernel_table.get()->findNormals(step, begin, end);
     });
   }
 };
@@ -71,7 +66,7 @@ findSlopes(const Band& band, const std::vector<float>& f, unsigned threads)
                           gradients.normal[2].data()},
                          {means[0].data(), means[1].data(), means[2].data()}};
   sweep(band, threads, [&](auto begin, auto end) {
-    term_kernels.get()->average(step, begin, end);
+    evolution_kernel_table.get()->average(step, begin, end);
   });
   for (const auto& mean : means)
     for (std::size_t i = 0; i < centers; ++i)
@@ -255,7 +250,7 @@ findNoiseOfFits(const Band& band,
 {
   const std::size_t count = std::min(level_set.noise_fits, centers.size());
   std::vector<double> noises(count, 0.0);
-  parallelBlocks(count, term_fits, threads, [&](auto begin, auto end) {
+  parallelBlocks(count, block_fits, threads, [&](auto begin, auto end) {
     NearestFinder finder(samples, level_set.noise_samples);
     for (std::size_t i = begin; i < end; ++i) {
       const std::uint32_t center = centers[i * centers.size() / count];

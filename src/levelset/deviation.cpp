@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "levelset/deviation.h"
 
-#include "common/dispatch.h"
 #include "common/parallel.h"
 #include "levelset/constants.h"
 #include "levelset/evolution_kernel.h"
+#include "levelset/parallel_kernels.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,11 +12,6 @@
 namespace pcl_uvol {
 
 namespace {
-
-constexpr std::size_t deviation_groups = 64;
-
-const KernelTable<const EvolutionKernels*> deviation_kernels{
-    &baseline::evolution_kernels, &avx2::evolution_kernels, &avx512::evolution_kernels};
 
 /** Two fields of the centres become their means over neighbours. */
 void
@@ -33,8 +28,8 @@ average(const Band& band,
                          {first.data(), second.data()},
                          {means[0].data(), means[1].data()}};
   parallelBlocks(
-      band.stencils.groups(), deviation_groups, threads, [&](auto begin, auto end) {
-        deviation_kernels.get()->average(step, begin, end);
+      band.stencils.groups(), block_groups, threads, [&](auto begin, auto end) {
+        evolution_kernel_table.get()->average(step, begin, end);
       });
   first = std::move(means[0]);
   second = std::move(means[1]);

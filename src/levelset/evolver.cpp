@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "levelset/evolver.h"
 
-#include "common/dispatch.h"
 #include "common/parallel.h"
 #include "levelset/constants.h"
+#include "levelset/parallel_kernels.h"
 
 #include <algorithm>
 #include <atomic>
@@ -15,7 +15,7 @@ namespace pcl_uvol {
 
 namespace {
 
-constexpr std::size_t evolved_groups = 64, evolved_places = 16384;
+constexpr std::size_t evolver_block = 16384;
 
 /** The rate of the longest steps with which steps of powers of two below take the least
  * work in all.
@@ -37,9 +37,6 @@ leastWork(const std::vector<double>& rates)
   }
   return best;
 }
-
-const KernelTable<const EvolutionKernels*> evolution_kernel_table{
-    &baseline::evolution_kernels, &avx2::evolution_kernels, &avx512::evolution_kernels};
 
 } // namespace
 
@@ -91,7 +88,7 @@ template <typename Visit>
 void
 Evolver::forCenters(const Visit& visit) const
 {
-  parallelBlocks(centers_, evolved_places, threads_, [&](auto begin, auto end) {
+  parallelBlocks(centers_, evolver_block, threads_, [&](auto begin, auto end) {
     for (std::size_t i = begin; i < end; ++i)
       visit(i);
   });
@@ -177,7 +174,7 @@ Evolver::evaluate(const std::vector<std::uint32_t>& groups,
                           {normals_[0].data(), normals_[1].data(), normals_[2].data()},
                           slope_.data()};
     parallelBlocks(
-        band_.stencils.groups(), evolved_groups, threads_, [&](auto begin, auto end) {
+        band_.stencils.groups(), block_groups, threads_, [&](auto begin, auto end) {
           kernels_.findNormals(step, begin, end);
         });
   }
@@ -186,7 +183,7 @@ Evolver::evaluate(const std::vector<std::uint32_t>& groups,
   const double to_distance = parameters_.reinitialization == Reinitialization::Diffusion
                                  ? level_set.diffusion_weight
                                  : 0.0;
-  parallelBlocks(groups.size(), evolved_groups, threads_, [&](auto begin, auto end) {
+  parallelBlocks(groups.size(), block_groups, threads_, [&](auto begin, auto end) {
     for (std::size_t i = begin; i < end; ++i) {
       const double dt = step_scale * step_ * periodOf(groups[i]) * weakness_[groups[i]];
       const EvolutionStep step{stencils,
@@ -215,7 +212,7 @@ Evolver::evaluate(const std::vector<std::uint32_t>& groups,
 void
 Evolver::commit(const std::vector<std::uint32_t>& groups, float time)
 {
-  parallelBlocks(groups.size(), evolved_groups, threads_, [&](auto begin, auto end) {
+  parallelBlocks(groups.size(), block_groups, threads_, [&](auto begin, auto end) {
     for (std::size_t i = begin; i < end; ++i) {
       const auto per_period = static_cast<float>(1.0 / periodOf(groups[i]));
       const std::size_t first = groups[i] * stencil_lanes;
@@ -248,7 +245,7 @@ Evolver::averageTwice(const std::vector<float>& values,
 {
   const auto average = [&](const AverageStep& step) {
     parallelBlocks(band_.stencils.groups(),
-                   evolved_groups,
+                   block_groups,
                    threads_,
                    [&](auto begin, auto end) { kernels_.average(step, begin, end); });
   };
@@ -317,7 +314,7 @@ bool
 Evolver::isBounded(double largest) const
 {
   std::atomic<bool> bounded{true};
-  parallelBlocks(centers_, evolved_places, threads_, [&](auto begin, auto end) {
+  parallelBlocks(centers_, evolver_block, threads_, [&](auto begin, auto end) {
     for (std::size_t i = begin; i < end; ++i)
       if (!(std::abs(phi_[i]) <= largest))
         bounded = false;
@@ -348,7 +345,7 @@ Evolver::summarize() const
   // Block by block, in one order for any number of threads.
   const auto parts =
       parallelGather<Sums>(band_.centers.size(),
-                           evolved_places,
+                           evolver_block,
                            threads_,
                            [&](auto begin, auto end, auto& found) {
                              Sums sums;

@@ -4,6 +4,7 @@
 #include "common/parallel.h"
 #include "levelset/constants.h"
 #include "levelset/evolver.h"
+#include "levelset/parallel_kernels.h"
 #include "levelset/quadratic_terms.h"
 #include "neighbors/nearest_finder.h"
 
@@ -17,8 +18,6 @@
 namespace pcl_uvol {
 
 namespace {
-
-constexpr std::size_t choice_fits = 64;
 
 /** 1 or -1 at random, by sample, so that the order of the input does not matter
  * (Steele, Lea, Flood 2014: SplitMix64). */
@@ -114,7 +113,7 @@ fitNear(const Band& band,
       near.push_back(static_cast<std::uint32_t>(i));
   const std::size_t count = std::min(level_set.most_looked_at, near.size());
   std::vector<FitWeights> fits(count);
-  parallelBlocks(count, choice_fits, threads, [&](auto begin, auto end) {
+  parallelBlocks(count, block_fits, threads, [&](auto begin, auto end) {
     NearestFinder finder(samples, std::min(size, samples.size()));
     for (std::size_t i = begin; i < end; ++i) {
       const std::uint32_t center = near[i * near.size() / count];

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "levelset/reinitialization.h"
 
-#include "common/dispatch.h"
 #include "common/parallel.h"
 #include "isosurface/isopoints.h"
 #include "levelset/constants.h"
 #include "levelset/evolution_kernel.h"
+#include "levelset/parallel_kernels.h"
 #include "neighbors/nearest_finder.h"
 
 #include <algorithm>
@@ -16,10 +16,7 @@ namespace pcl_uvol {
 
 namespace {
 
-constexpr std::size_t distance_groups = 64, distance_places = 1024;
-
-const KernelTable<const EvolutionKernels*> distance_kernels{
-    &baseline::evolution_kernels, &avx2::evolution_kernels, &avx512::evolution_kernels};
+constexpr std::size_t distance_block = 1024;
 
 } // namespace
 
@@ -104,13 +101,13 @@ distanceToZeroLevel(const Band& band,
       distance[place] = std::copysign(length, phi[sample]);
   };
   parallelBlocks(
-      band.centers.size(), distance_places, threads, [&](auto begin, auto end) {
+      band.centers.size(), distance_block, threads, [&](auto begin, auto end) {
         NearestFinder finder(*surface, 1);
         for (std::size_t i = begin; i < end; ++i)
           measure(finder, i, band.centers[i]);
       });
   parallelBlocks(
-      band.others.size(), distance_places, threads, [&](auto begin, auto end) {
+      band.others.size(), distance_block, threads, [&](auto begin, auto end) {
         NearestFinder finder(*surface, 1);
         for (std::size_t i = begin; i < end; ++i)
           measure(finder, band.centerPlaces() + i, band.others[i]);
@@ -147,8 +144,8 @@ relaxToDistance(const Band& band,
         next.data(),
         slope.data()};
     parallelBlocks(
-        band.stencils.groups(), distance_groups, threads, [&](auto begin, auto end) {
-          distance_kernels.get()->relaxToDistance(step, begin, end);
+        band.stencils.groups(), block_groups, threads, [&](auto begin, auto end) {
+          evolution_kernel_table.get()->relaxToDistance(step, begin, end);
         });
     now.swap(next);
   }

@@ -4,6 +4,7 @@
 #include "common/median.h"
 #include "common/parallel.h"
 #include "levelset/constants.h"
+#include "levelset/parallel_kernels.h"
 #include "levelset/quadratic_residuals.h"
 #include "neighbors/nearest_finder.h"
 
@@ -14,8 +15,6 @@
 namespace pcl_uvol {
 
 namespace {
-
-constexpr std::size_t scale_fits_at_once = 64;
 
 /** Values of a smaller part of the isovalue, or below 0, go on along a line, which
  * noise about 0 asks for: two spacings off, growth by ten in two spacings is that far
@@ -60,7 +59,7 @@ areLogarithmsSmoother(const SampleSet& samples,
   if (count == 0)
     return false;
   std::vector<double> of_values(count), of_logarithms(count);
-  parallelBlocks(count, scale_fits_at_once, threads, [&](auto begin, auto end) {
+  parallelBlocks(count, block_fits, threads, [&](auto begin, auto end) {
     NearestFinder finder(samples, level_set.noise_samples);
     float reach = 1.0f;
     for (std::size_t i = begin; i < end; ++i) {

@@ -16,7 +16,7 @@ namespace pcl_uvol::detail {
 
 namespace {
 
-constexpr std::size_t band_cells = 1u << 10, band_vertices = 1u << 10;
+constexpr std::size_t band_cell_block = 1u << 10, band_vertex_block = 1u << 10;
 
 /** Share of the distance of two cells: a surface farther from the line between them is
  * that of another sheet. */
@@ -94,7 +94,7 @@ private:
     }
     mesh.vertices.resize(pairs_.size());
     parallelBlocks(
-        pairs_.size(), band_vertices, input_.threads, [&](auto begin, auto end) {
+        pairs_.size(), band_vertex_block, input_.threads, [&](auto begin, auto end) {
           for (std::size_t i = begin; i < end; ++i)
             mesh.vertices[i] = makeVertex(pairs_[i]);
           tellPairs(begin, end);
@@ -263,7 +263,7 @@ private:
     const std::vector<std::uint32_t>& band = values_.getBand();
     pairs_ = parallelGather<CellPair>(
         band.size(),
-        band_cells,
+        band_cell_block,
         input_.threads,
         [&](std::size_t begin, std::size_t end, std::vector<CellPair>& pairs) {
           std::vector<std::uint32_t> touching;

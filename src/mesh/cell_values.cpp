@@ -11,7 +11,7 @@ namespace pcl_uvol::detail {
 
 namespace {
 
-constexpr std::size_t value_cells = 1u << 10;
+constexpr std::size_t value_block = 1u << 10;
 
 Eigen::Vector3d
 toInput(const Position& place, const Position& scale)
@@ -80,7 +80,7 @@ CellValues::findPartners(const std::vector<std::uint32_t>& samples) const
   const auto& positions = input_.samples.getPositions();
   std::vector<Candidate> found(samples.size());
   parallelBlocks(
-      samples.size(), value_cells, input_.threads, [&](auto begin, auto end) {
+      samples.size(), value_block, input_.threads, [&](auto begin, auto end) {
         std::vector<std::uint32_t> touching;
         for (std::size_t i = begin; i < end; ++i) {
           const std::uint32_t sample = samples[i];
@@ -109,7 +109,7 @@ CellValues::findOthers(const std::vector<Candidate>& fitted) const
 {
   auto found = parallelGather<Candidate>(
       fitted.size(),
-      value_cells,
+      value_block,
       input_.threads,
       [&](std::size_t begin, std::size_t end, std::vector<Candidate>& others) {
         std::vector<std::uint32_t> touching;
@@ -144,7 +144,7 @@ CellValues::fit(const std::vector<Candidate>& candidates, StepTimer& step)
   IsoEdges edges(candidates.size());
   std::vector<PointIso> feet(candidates.size());
   parallelBlocks(
-      candidates.size(), value_cells, input_.threads, [&](auto begin, auto end) {
+      candidates.size(), value_block, input_.threads, [&](auto begin, auto end) {
         for (std::size_t i = begin; i < end; ++i) {
           const auto [sample, partner] = candidates[i];
           BandCell& cell = cells_[first + i];

@@ -19,7 +19,7 @@ namespace pcl_uvol::detail {
 namespace {
 
 /** Places that a thread looks up at a time. */
-constexpr std::size_t inner_places = 4096;
+constexpr std::size_t inner_block = 4096;
 
 /** Share of the difference between a sample and the next one in leaf order, which lies
  * a cell or so away: what a cell's mean differs from its sample, about. */
@@ -48,7 +48,7 @@ findInner(const MeshColumns& columns,
           const PlaceOf& place_of)
 {
   return parallelGather<
-      InnerPoint>(count, inner_places, threads, [&](auto begin, auto end, auto& found) {
+      InnerPoint>(count, inner_block, threads, [&](auto begin, auto end, auto& found) {
     std::vector<Winding> around;
     for (std::size_t i = begin; i < end; ++i) {
       columns.findAround(place_of(i), around);
@@ -66,7 +66,7 @@ computeCellVolumes(const SampleSet& samples, unsigned threads)
   const CellTiling tiling(samples.getTree(), samples.getPositions());
   const Position& scale = samples.getScale();
   std::vector<double> volumes(samples.size());
-  parallelBlocks(volumes.size(), inner_places, threads, [&](auto begin, auto end) {
+  parallelBlocks(volumes.size(), inner_block, threads, [&](auto begin, auto end) {
     for (std::size_t i = begin; i < end; ++i) {
       const auto sample = static_cast<std::uint32_t>(i);
       const KdBox box = tiling.findBox(sample, tiling.findCell(sample));

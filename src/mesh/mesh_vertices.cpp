@@ -14,7 +14,7 @@ namespace pcl_uvol::detail {
 
 namespace {
 
-constexpr std::size_t normal_triangles = 1u << 12;
+constexpr std::size_t normal_block = 1u << 12;
 
 /** Share of the local length: a fit that moves a vertex farther tells of another sheet.
  */
@@ -145,7 +145,7 @@ private:
       before.push_back(vertex.foot);
     std::vector<std::uint8_t> agreed(mesh_.triangles.size());
     parallelBlocks(
-        agreed.size(), normal_triangles, input_.threads, [&](auto begin, auto end) {
+        agreed.size(), normal_block, input_.threads, [&](auto begin, auto end) {
           for (std::size_t i = begin; i < end; ++i)
             agreed[i] = agrees(i);
         });
@@ -195,7 +195,7 @@ measure(const WorkingMesh& mesh,
         Report& report)
 {
   std::vector<TriangleShape> shapes(mesh.triangles.size());
-  parallelBlocks(shapes.size(), normal_triangles, threads, [&](auto begin, auto end) {
+  parallelBlocks(shapes.size(), normal_block, threads, [&](auto begin, auto end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Triangle& triangle = mesh.triangles[i];
       shapes[i] = {mesh.normalOf(triangle).norm(),

@@ -17,7 +17,7 @@ namespace pcl_uvol::detail {
 
 namespace {
 
-constexpr std::size_t remeshed_vertices = 1u << 10;
+constexpr std::size_t remeshing_block = 1u << 10;
 
 /** Share of the way to the mean of the neighbours, per round of smoothing. */
 constexpr double relaxation = 0.7;
@@ -71,7 +71,7 @@ public:
     std::vector<Foot> moved(mesh_.vertices.size());
     for (int round = 0; round < rounds; ++round) {
       parallelBlocks(
-          moved.size(), remeshed_vertices, threads_, [&](auto begin, auto end) {
+          moved.size(), remeshing_block, threads_, [&](auto begin, auto end) {
             std::vector<std::uint32_t> around;
             std::vector<Foot> feet;
             for (std::size_t i = begin; i < end; ++i) {

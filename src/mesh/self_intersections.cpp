@@ -21,7 +21,7 @@ namespace pcl_uvol::detail {
 namespace {
 
 /** Triangles that a thread looks at at a time. */
-constexpr std::size_t crossing_triangles = 512;
+constexpr std::size_t crossing_block = 512;
 
 /** Of a surface that goes through itself on purpose there are some per triangle; where
  * triangles lie on one another there are as many as the square of their number. */
@@ -233,10 +233,7 @@ findSelfIntersections(const std::vector<Eigen::Vector3d>& places,
   const EdgeFans fans(places, solid);
   std::atomic<std::size_t> total{0};
   auto pairs = parallelGather<Pair>(
-      solid.size(),
-      crossing_triangles,
-      threads,
-      [&](auto begin, auto end, auto& found) {
+      solid.size(), crossing_block, threads, [&](auto begin, auto end, auto& found) {
         std::vector<std::uint32_t> others;
         for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
           others.clear();

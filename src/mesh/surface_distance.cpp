@@ -18,7 +18,7 @@ namespace pcl_uvol::detail {
 namespace {
 
 /** Places that a thread looks up at a time. */
-constexpr std::size_t distance_places = 1024;
+constexpr std::size_t distance_block = 1024;
 
 /** Share of the surface: farther away lies what counts as an outlier. */
 constexpr double outliers = 1e-3;
@@ -160,7 +160,7 @@ public:
     Report report;
     report.progress = progress;
     StepTimer step(report, "distances", places_.size());
-    parallelBlocks(places_.size(), distance_places, threads, [&](auto begin, auto end) {
+    parallelBlocks(places_.size(), distance_block, threads, [&](auto begin, auto end) {
       for (std::size_t i = begin; i < end; ++i)
         nearest_[i] = tree.find(from.placeOf(places_[i]));
       step.advance(end - begin);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "neighbors/cell_search.h"
 
-#include "common/dispatch.h"
+#include "neighbors/kernel_tables.h"
 #include "neighbors/nearest_kernel.h"
 
 #include <algorithm>
@@ -27,9 +27,6 @@ constexpr double vertex_slack = 1e-11;
  */
 constexpr double float_rounding = 1.0 - 1e-6;
 
-const KernelTable<const NearestKernels*> kernel_table{
-    &baseline::nearest_kernels, &avx2::nearest_kernels, &avx512::nearest_kernels};
-
 /** A bound of squared distances in float, from a place that is rounded to float as
  * well: of samples in a ball none exceeds it. */
 float
@@ -48,7 +45,7 @@ boundInFloat(const Query& center, double sq_radius)
 
 CellSearch::CellSearch(const SampleSet& samples)
     : samples_(samples)
-    , kernels_(kernel_table.get())
+    , kernels_(nearest_kernel_table.get())
 {
 }
 

@@ -2,7 +2,7 @@
 #include "neighbors/local_metric.h"
 
 #include "common/constants.h"
-#include "common/dispatch.h"
+#include "neighbors/kernel_tables.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
@@ -62,9 +62,6 @@ between(const Position& from, const Position& to)
   return offset;
 }
 
-const KernelTable<const MetricKernels*> line_kernels{
-    &baseline::metric_kernels, &avx2::metric_kernels, &avx512::metric_kernels};
-
 Eigen::Matrix3d
 toMatrix(const double (&moments)[6])
 {
@@ -94,7 +91,7 @@ LineMoments::LineMoments(const std::vector<float> (&offsets)[3], std::size_t cen
   std::vector<float> lines[3], sq_lengths(count);
   for (auto& coordinate : lines)
     coordinate.resize(count);
-  const MetricKernels& kernels = *line_kernels.get();
+  const MetricKernels& kernels = *metric_kernel_table.get();
   Moments moments{};
   for (std::size_t i = 0; i < central; ++i) {
     for (std::size_t axis = 0; axis < 3; ++axis)

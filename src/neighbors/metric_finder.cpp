@@ -2,7 +2,7 @@
 #include "neighbors/metric_finder.h"
 
 #include "common/constants.h"
-#include "common/dispatch.h"
+#include "neighbors/kernel_tables.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
@@ -15,9 +15,6 @@
 namespace pcl_uvol {
 
 namespace {
-
-const KernelTable<const MetricKernels*> metric_kernel_table{
-    &baseline::metric_kernels, &avx2::metric_kernels, &avx512::metric_kernels};
 
 MetricRows
 toRows(const Eigen::Matrix3d& matrix)

@@ -2,7 +2,7 @@
 #include "neighbors/nearest_finder.h"
 
 #include "common/constants.h"
-#include "common/dispatch.h"
+#include "neighbors/kernel_tables.h"
 #include "neighbors/nearest_kernel.h"
 
 #include <algorithm>
@@ -25,9 +25,6 @@ constexpr std::size_t least_crowd = 2000, crowd_per_neighbor = 100;
 constexpr int most_guesses = 8;
 /** Room for the rounding of a squared distance. */
 constexpr float reach_slack = 1.0001f;
-
-const KernelTable<const NearestKernels*> nearest_kernel_table{
-    &baseline::nearest_kernels, &avx2::nearest_kernels, &avx512::nearest_kernels};
 
 /** The least squared distance between two boxes. No squared distance between a point of
  * one and a point of the other is below it, to the last bit: each of the operations

@@ -31,7 +31,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-constexpr std::size_t gap_places = 256;
+constexpr std::size_t gap_block = 256;
 
 /** Samples that the field between others is kriged from. */
 constexpr std::size_t kriged_samples = 16;
@@ -368,7 +368,7 @@ FilledGaps::findThin(const std::vector<Place>& places,
   if (distances)
     distances->resize(places.size());
   const LengthUnit& unit = measured_->getUnit();
-  parallelBlocks(places.size(), gap_places, threads, [&](auto begin, auto end) {
+  parallelBlocks(places.size(), gap_block, threads, [&](auto begin, auto end) {
     NearestFinder nearest(*measured_, 1);
     SamplingFinder local(*measured_);
     for (std::size_t i = begin; i < end; ++i) {

@@ -13,7 +13,7 @@ namespace pcl_uvol::detail {
 
 namespace {
 
-constexpr std::size_t vote_places = 256;
+constexpr std::size_t vote_block = 256;
 
 /** Share of the spacing of predicted samples: a kriged surface that is farther off an
  * isopoint contradicts it. Half of them are off by no more than 0.09 to 0.17 on
@@ -75,7 +75,7 @@ SureFits::SureFits(const pcl::PointCloud<PointIso>& crossings,
                       spacing);
   }
   are_surer_.resize(count);
-  parallelBlocks(count, vote_places, threads, [&](auto begin, auto end) {
+  parallelBlocks(count, vote_block, threads, [&](auto begin, auto end) {
     NearestFinder nearest(*crossings_, voters);
     for (std::size_t i = begin; i < end; ++i) {
       const auto row = nearest.find(crossings_->getPositions()[i], 1.0f);
@@ -94,7 +94,7 @@ SureFits::find(const std::vector<std::array<double, 3>>& places, unsigned thread
   std::vector<std::uint8_t> found(places.size());
   if (!crossings_)
     return found;
-  parallelBlocks(places.size(), vote_places, threads, [&](auto begin, auto end) {
+  parallelBlocks(places.size(), vote_block, threads, [&](auto begin, auto end) {
     NearestFinder nearest(*crossings_, 1);
     for (std::size_t i = begin; i < end; ++i) {
       const auto& [x, y, z] = places[i];

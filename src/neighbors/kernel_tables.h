@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The kernels that several searches use, compiled for every instruction set.
+#pragma once
+
+#include "common/dispatch.h"
+#include "neighbors/metric_kernel.h"
+#include "neighbors/nearest_kernel.h"
+
+namespace pcl_uvol {
+
+constexpr KernelTable<const NearestKernels*> nearest_kernel_table{
+    &baseline::nearest_kernels, &avx2::nearest_kernels, &avx512::nearest_kernels};
+
+constexpr KernelTable<const MetricKernels*> metric_kernel_table{
+    &baseline::metric_kernels, &avx2::metric_kernels, &avx512::metric_kernels};
+
+} // namespace pcl_uvol
