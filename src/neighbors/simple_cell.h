@@ -112,6 +112,7 @@ public:
   void
   forEdges(const Visit& visit) const
   {
+    // Chains for cells of any size take a tenth more of Sibson's coordinates.
     if (faces_ <= usual_faces) {
       std::array<std::array<std::uint16_t, usual_faces>, usual_faces> vertex_of;
       for (std::size_t v = 0; v < vertices_; ++v)
