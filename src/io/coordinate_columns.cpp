@@ -56,8 +56,8 @@ isFiller(const std::string& word)
   return words.count(word) > 0;
 }
 
-/** Words of vectors and of statistics, whose numbers are not coordinates; a unit that
- * ends with seconds is that of a speed. */
+/** Words of vectors, of statistics and of flags, whose numbers are not coordinates; a
+ * unit that ends with seconds is that of a speed. */
 bool
 isQuantity(const std::string& word)
 {
@@ -67,7 +67,7 @@ isQuantity(const std::string& word)
       "field", "mag",      "vorticity", "disp",  "displacement", "err",
       "error", "std",      "sigma",     "var",   "min",          "max",
       "index", "dir",      "direction", "wind",  "orient",       "size",
-      "s",     "sec"};
+      "s",     "sec",      "qc",        "flag",  "quality"};
   return words.count(word) > 0;
 }
 

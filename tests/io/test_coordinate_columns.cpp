@@ -140,6 +140,7 @@ TEST(CoordinateColumns, OtherQuantitiesAreRefused)
                                  "x_start,y_start,z_start,x_end,y_end,z_end",
                                  "X,Y,0,OrientX,OrientY,OrientZ",
                                  "x,y,snow_depth,T",
+                                 "lon,lat,depth_qc,T",
                                  "station,longitude,latitude,wind_east,wind_north",
                                  "x_kpch,y_kpch,rho,T"}) {
     const std::string error = messageOf<IOError>([&] { load(line); });
