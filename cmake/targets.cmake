@@ -50,17 +50,22 @@ function(pcl_uvol_reuse_headers target name)
   endif()
 endfunction()
 
-# Sources of one folder are compiled a dozen at a time: each source would read the same headers and make the same
-# functions of templates again. Names in unnamed namespaces are therefore unique within a folder. To be called in the
-# folder of the target, once it has its sources; those with options of their own stay alone.
+# Sources are compiled a dozen at a time: each source would read the same headers and make the same functions of templates
+# again. Sources of one folder are joined, so names in unnamed namespaces are unique within a folder; those of tests have
+# namespaces of their own, named as the file, and are joined ACROSS_FOLDERS. To be called in the folder of the target, once
+# it has its sources; those with options of their own stay alone.
 function(pcl_uvol_unite target)
   if(NOT PCL_UVOL_UNITY)
     return()
   endif()
+  cmake_parse_arguments(PARSE_ARGV 1 unite ACROSS_FOLDERS "" "")
   get_target_property(sources ${target} SOURCES)
   list(FILTER sources INCLUDE REGEX "\\.cpp$")
   foreach(source IN LISTS sources)
     cmake_path(GET source PARENT_PATH folder)
+    if(unite_ACROSS_FOLDERS)
+      set(folder ${target})
+    endif()
     string(MAKE_C_IDENTIFIER "count_${folder}" count)
     if(NOT DEFINED ${count})
       set(${count} 0)

@@ -92,7 +92,7 @@ LineMoments::LineMoments(const std::vector<float> (&offsets)[3], std::size_t cen
   for (auto& coordinate : lines)
     coordinate.resize(count);
   const MetricKernels& kernels = *metric_kernel_table.get();
-  Moments moments{};
+  MetricMoments moments{};
   for (std::size_t i = 0; i < central; ++i) {
     for (std::size_t axis = 0; axis < 3; ++axis)
       for (std::size_t j = 0; j < samples; ++j)

@@ -121,7 +121,7 @@ findBounds(const BoxPair& boxes, const MetricBounds& metric, double* sq_bounds)
 }
 
 void
-addLine(float x, float y, float z, float sq_length, Moments& moments)
+addLine(float x, float y, float z, float sq_length, MetricMoments& moments)
 {
   const double line[3] = {x, y, z};
   constexpr int row[6] = {0, 0, 0, 1, 1, 2}, column[6] = {0, 1, 2, 1, 2, 2};
@@ -148,7 +148,7 @@ addLines(const float* x,
          float* sq_lengths,
          std::size_t count,
          float sq_cosine,
-         Moments& moments)
+         MetricMoments& moments)
 {
   Lines least = Lines{} + gone;
   for (std::size_t j = 0; j < count; j += line_lanes) {

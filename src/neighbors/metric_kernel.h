@@ -27,7 +27,7 @@ struct MetricBounds {
 };
 
 /** \brief Second moments: xx, xy, xz, yy, yz, zz. */
-struct Moments {
+struct MetricMoments {
   double lengths[6], directions[6];
 };
 
@@ -59,7 +59,7 @@ struct MetricKernels {
                    float* sq_lengths,
                    std::size_t count,
                    float sq_cosine,
-                   Moments& moments);
+                   MetricMoments& moments);
 };
 
 namespace baseline {

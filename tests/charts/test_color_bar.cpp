@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace test_color_bar {
 
 using pcl_uvol::ColorMap;
 using pcl_uvol::Image;
@@ -263,4 +263,4 @@ TEST(ColorBar, TakesAnyRangeAndLeavesSmallImagesAlone)
   EXPECT_EQ(small.color, drawn.color);
 }
 
-} // namespace
+} // namespace test_color_bar

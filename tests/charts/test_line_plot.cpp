@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-namespace {
+namespace test_line_plot {
 
 using pcl_uvol::Image;
 using uvol_tools::drawLinePlot;
@@ -66,4 +66,4 @@ TEST(LinePlot, NothingToDrawIsAnEmptyPlot)
     EXPECT_FALSE(image.color.empty());
 }
 
-} // namespace
+} // namespace test_line_plot

@@ -11,7 +11,7 @@
 #include <sstream>
 #include <string>
 
-namespace {
+namespace test_picture_file {
 
 using namespace uvol_tools;
 using pcl_uvol::Image;
@@ -139,4 +139,4 @@ TEST_F(PictureFiles, OtherEndingsAndFoldersAreRefused)
   EXPECT_EQ("AAECAwQ=", encodeBase64("\0\1\2\3\4", 5));
 }
 
-} // namespace
+} // namespace test_picture_file

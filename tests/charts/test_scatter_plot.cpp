@@ -9,7 +9,7 @@
 #include <limits>
 #include <tuple>
 
-namespace {
+namespace test_scatter_plot {
 
 using pcl_uvol::Image;
 using pcl_uvol::InvalidArgument;
@@ -236,4 +236,4 @@ TEST(ScatterPlot, RefusesNonsense)
   }
 }
 
-} // namespace
+} // namespace test_scatter_plot

@@ -11,7 +11,7 @@
 #include <limits>
 #include <set>
 
-namespace {
+namespace test_slice_plot {
 
 using pcl_uvol::Image;
 using namespace uvol_tools;
@@ -261,4 +261,4 @@ TEST(Profile, LinesAndGapsLieWhereTheValuesAre)
               8.0);
 }
 
-} // namespace
+} // namespace test_slice_plot

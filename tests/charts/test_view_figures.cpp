@@ -20,7 +20,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace test_view_figures {
 
 using Eigen::Vector3d;
 using pcl_uvol::Camera;
@@ -645,4 +645,4 @@ TEST(Lines, CoverWhatIsNearTheirSegment)
   }
 }
 
-} // namespace
+} // namespace test_view_figures

@@ -10,7 +10,7 @@
 #include <string>
 #include <utility>
 
-namespace {
+namespace test_cloud_fingerprint {
 
 using pcl_uvol::CloudFingerprint;
 using pcl_uvol::computeFingerprint;
@@ -138,4 +138,4 @@ TEST(CloudFingerprint, IsTheSameOnAnyNumberOfThreads)
   EXPECT_EQ(one.values, four.values);
 }
 
-} // namespace
+} // namespace test_cloud_fingerprint

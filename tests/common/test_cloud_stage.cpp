@@ -6,7 +6,7 @@
 #include <pcl/conversions.h>
 #include <pcl/point_types.h>
 
-namespace {
+namespace test_cloud_stage {
 
 using pcl_uvol::CloudView;
 using pcl_uvol::InvalidArgument;
@@ -84,4 +84,4 @@ TEST(CloudStage, TakesCloudsOfFieldsKnownAtRunTime)
   expectSums<SumStage<pcl::PCLPointCloud2>>(cloud);
 }
 
-} // namespace
+} // namespace test_cloud_stage

@@ -40,7 +40,7 @@ POINT_CLOUD_REGISTER_POINT_STRUCT(PackedPoint,
     (float, z, z)(float, y, y)(float, x, x)(float, intensity, intensity))
 // clang-format on
 
-namespace {
+namespace test_cloud_view {
 
 using pcl_uvol::InvalidArgument;
 using Cloud = pcl::PointCloud<pcl::PointXYZI>;
@@ -254,4 +254,4 @@ TEST(CloudView, AnotherCloudThroughTheBaseIsNoticed)
   expectSame(extract<pcl::PCLPointCloud2>(few), out);
 }
 
-} // namespace
+} // namespace test_cloud_view

@@ -14,7 +14,7 @@
 #include <cstdio>
 #include <cstring>
 
-namespace {
+namespace test_coordinate_range {
 
 using pcl_uvol::CoordinateRange;
 using Point = CoordinateRange::Point;
@@ -203,4 +203,4 @@ TEST(ValueFrame, BringsLargeAndSmallValuesNearOne)
   }
 }
 
-} // namespace
+} // namespace test_coordinate_range

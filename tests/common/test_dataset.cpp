@@ -8,7 +8,7 @@
 using namespace pcl_uvol;
 using namespace uvol_test;
 
-namespace {
+namespace test_dataset {
 
 TEST(Coordinates, OriginOnlyWhereFloatNeedsIt)
 {
@@ -84,4 +84,4 @@ TEST(Records, BadOnes)
   EXPECT_THROW(checkComplete(incomplete), InvalidArgument);
 }
 
-} // namespace
+} // namespace test_dataset

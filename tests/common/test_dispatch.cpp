@@ -7,7 +7,7 @@
 
 #include <cstdlib>
 
-namespace {
+namespace test_dispatch {
 
 /** The level is chosen once per process: one test for all there is to it. */
 TEST(Dispatch, TheEnvironmentChoosesOnceAndOnlyByName)
@@ -38,4 +38,4 @@ TEST(Dispatch, ToolsSayWhatIsWrong)
   EXPECT_EQ(1u, folder.list().size());
 }
 
-} // namespace
+} // namespace test_dispatch

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace {
+namespace test_map_projection {
 
 using namespace pcl_uvol;
 
@@ -124,4 +124,4 @@ TEST(MapProjection, BringsPointsFromOneMapOntoAnother)
   EXPECT_EQ(-10.0, z.read(second) + points.origin[2]);
 }
 
-} // namespace
+} // namespace test_map_projection

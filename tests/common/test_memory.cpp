@@ -15,7 +15,7 @@
 #include <unistd.h>
 #include <vector>
 
-namespace {
+namespace test_memory {
 
 using pcl_uvol::checkMemory;
 using pcl_uvol::formatBytes;
@@ -224,4 +224,4 @@ TEST(Memory, OnlyWhatDoesNotFitIsRefused)
   }
 }
 
-} // namespace
+} // namespace test_memory

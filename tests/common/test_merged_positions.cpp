@@ -12,7 +12,7 @@
 #include <set>
 #include <vector>
 
-namespace {
+namespace test_merged_positions {
 
 using pcl_uvol::describe;
 using pcl_uvol::MergedPositions;
@@ -102,4 +102,4 @@ TEST(MergedPositions, AreDescribedByNumberAndDistance)
   EXPECT_NE(std::string::npos, text.find("up to 1e-09 apart")) << text;
 }
 
-} // namespace
+} // namespace test_merged_positions

@@ -6,8 +6,9 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl_uvol {
-namespace {
+namespace test_number_range {
+
+using namespace pcl_uvol;
 
 using Texts = std::vector<std::string>;
 
@@ -36,5 +37,4 @@ TEST(DescribeNumbers, TakesEqualNumbersAndThoseThatAreNone)
             (Texts{"1.5", "unknown", "unknown"}));
 }
 
-} // namespace
-} // namespace pcl_uvol
+} // namespace test_number_range

@@ -17,7 +17,7 @@
 #include <unistd.h>
 #include <vector>
 
-namespace {
+namespace test_parallel {
 
 TEST(Parallel, SortEqualsTheSerialOne)
 {
@@ -139,4 +139,4 @@ TEST(Parallel, TeamsAreOpenedForWorkOnly)
   EXPECT_EQ(0, elsewhere);
 }
 
-} // namespace
+} // namespace test_parallel

@@ -19,7 +19,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace {
+namespace test_parameters {
 
 using pcl_uvol::InvalidArgument;
 using pcl_uvol::IsosurfaceParameters;
@@ -175,4 +175,4 @@ TEST(Parameters, HaveNullForWhatIsNotGiven)
   EXPECT_EQ(given, LevelSetParameters::fromJson(R"({"mu": 0.5, "isovalue": 2})"));
 }
 
-} // namespace
+} // namespace test_parameters

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace {
+namespace test_random {
 
 TEST(Random, NumbersAreUniformAndNormal)
 {
@@ -24,4 +24,4 @@ TEST(Random, NumbersAreUniformAndNormal)
   EXPECT_NE(pcl_uvol::uniformAt(3, 5, 1), pcl_uvol::uniformAt(4, 5, 1));
 }
 
-} // namespace
+} // namespace test_random

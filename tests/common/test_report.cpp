@@ -10,7 +10,7 @@
 #include <map>
 #include <stdexcept>
 
-namespace {
+namespace test_report {
 
 TEST(Progress, RisesToOneAndIsToldOneAtATime)
 {
@@ -66,4 +66,4 @@ TEST(Progress, ReachesTheUserOfAStageAndCanInterruptIt)
   EXPECT_EQ(before, isopoints.size());
 }
 
-} // namespace
+} // namespace test_report

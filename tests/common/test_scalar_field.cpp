@@ -7,7 +7,7 @@ using pcl_uvol::InvalidArgument;
 using pcl_uvol::ScalarField;
 using namespace uvol_test;
 
-namespace {
+namespace test_scalar_field {
 
 std::string
 defaultOf(const std::vector<FieldSpec>& specs)
@@ -26,8 +26,6 @@ const std::vector<FieldSpec> vectors{{"vel", Type::FLOAT32, 3},
                                      {"acc_0", Type::FLOAT64},
                                      {"acc_1", Type::FLOAT64},
                                      {"id", Type::INT32}};
-
-} // namespace
 
 TEST(ScalarField, ReadsEveryType)
 {
@@ -127,3 +125,5 @@ TEST(ScalarField, Default)
             }).find("v (float32 x 3)"),
             std::string::npos);
 }
+
+} // namespace test_scalar_field

@@ -4,7 +4,7 @@
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/exceptions.h>
 
-namespace {
+namespace test_set_field {
 
 using namespace pcl_uvol;
 using namespace uvol_test;
@@ -145,4 +145,4 @@ TEST(SetField, RefusesCoordinatesAndOtherNumbersOfValues)
   expectSameFields(dataset, makePoints());
 }
 
-} // namespace
+} // namespace test_set_field

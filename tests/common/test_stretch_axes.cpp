@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace test_stretch_axes {
 
 using Eigen::Array3d;
 using Eigen::Matrix3d;
@@ -192,4 +192,4 @@ TEST(Stretch, NeedsAMapThatKeepsDirections)
   EXPECT_THROW(Stretch::ofMap(flat), pcl_uvol::InvalidArgument);
 }
 
-} // namespace
+} // namespace test_stretch_axes

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace {
+namespace test_vertex_normals {
 
 using pcl_uvol::computeVertexNormals;
 using pcl_uvol::Mesh;
@@ -78,4 +78,4 @@ TEST(VertexNormals, AreZeroWithoutTrianglesOfAnyArea)
   EXPECT_TRUE(computeVertexNormals(Mesh()).empty());
 }
 
-} // namespace
+} // namespace test_vertex_normals

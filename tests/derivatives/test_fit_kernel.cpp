@@ -12,7 +12,7 @@
 #include <random>
 #include <vector>
 
-namespace {
+namespace test_fit_kernel {
 
 using namespace pcl_uvol;
 using Real = long double;
@@ -456,4 +456,4 @@ TEST(FitKernel, AllInstructionSetsGiveTheSameNumbers)
   });
 }
 
-} // namespace
+} // namespace test_fit_kernel

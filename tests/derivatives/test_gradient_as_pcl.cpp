@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <pcl/search/kdtree.h>
 
-namespace {
+namespace test_gradient_as_pcl {
 
 TEST(GradientEstimation, AsPclWouldDoIt)
 {
@@ -35,4 +35,4 @@ TEST(GradientEstimation, AsPclWouldDoIt)
   EXPECT_EQ(3u, some.size());
 }
 
-} // namespace
+} // namespace test_gradient_as_pcl

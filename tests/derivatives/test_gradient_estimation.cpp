@@ -15,7 +15,7 @@
 #include <cstring>
 #include <functional>
 
-namespace {
+namespace test_gradient_estimation {
 
 using pcl_uvol::FitScheme;
 using pcl_uvol::InvalidArgument;
@@ -329,4 +329,4 @@ TEST(GradientEstimation, RejectsBadInput)
   EXPECT_EQ(2u, untouched.size());
 }
 
-} // namespace
+} // namespace test_gradient_estimation

@@ -11,7 +11,7 @@
 #include <random>
 #include <vector>
 
-namespace {
+namespace test_polynomial_kernel {
 
 using namespace pcl_uvol;
 using Real = long double;
@@ -206,4 +206,4 @@ TEST(PolynomialKernel, SaysWhereSamplesTellNothing)
   });
 }
 
-} // namespace
+} // namespace test_polynomial_kernel

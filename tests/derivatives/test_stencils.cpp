@@ -14,7 +14,7 @@
 #include <random>
 #include <vector>
 
-namespace {
+namespace test_stencils {
 
 using namespace pcl_uvol;
 using Eigen::Matrix3d;
@@ -224,4 +224,4 @@ TEST(Stencils, KnowTheirNearestAndFarthestNeighbour)
   }
 }
 
-} // namespace
+} // namespace test_stencils

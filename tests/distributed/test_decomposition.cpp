@@ -20,7 +20,7 @@
 #include <xmmintrin.h>
 #endif
 
-namespace {
+namespace test_decomposition {
 
 using pcl_uvol::Ball;
 using pcl_uvol::CellKey;
@@ -367,4 +367,4 @@ TEST(Decompositions, RefuseWhatCannotBe)
   EXPECT_THROW(decompose(positions, 21, 1, ignore, passes), pcl_uvol::InvalidArgument);
 }
 
-} // namespace
+} // namespace test_decomposition

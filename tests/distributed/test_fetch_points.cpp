@@ -11,7 +11,7 @@
 
 #include <set>
 
-namespace {
+namespace test_fetch_points {
 
 /** Points whose intensity is their number. */
 pcl::PCLPointCloud2
@@ -94,4 +94,4 @@ TEST(FetchPoints, RefusesPointsThatNobodyHas)
                pcl_uvol::InvalidArgument);
 }
 
-} // namespace
+} // namespace test_fetch_points

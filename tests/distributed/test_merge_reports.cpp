@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace {
+namespace test_merge_reports {
 
 using pcl_uvol::Report;
 
@@ -34,4 +34,4 @@ TEST(RankReport, AddsCountsAndKeepsTheLongestTimes)
   });
 }
 
-} // namespace
+} // namespace test_merge_reports

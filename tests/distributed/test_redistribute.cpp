@@ -12,7 +12,7 @@
 #include <mutex>
 #include <optional>
 
-namespace {
+namespace test_redistribute {
 
 using pcl_uvol::Communicator;
 using pcl_uvol::Decomposition;
@@ -209,4 +209,4 @@ TEST(Redistribution, RefusesGroupsThatCannotBe)
   EXPECT_THROW(Together(samples, 7, 4, 2, in_turn), pcl_uvol::InvalidArgument);
 }
 
-} // namespace
+} // namespace test_redistribute

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <mutex>
 
-namespace {
+namespace test_sort_together {
 
 using pcl_uvol::uniformAt;
 
@@ -64,4 +64,4 @@ TEST(SortTogether, TakesFewNumbersAndNone)
   share({50, 50}, 1.0);
 }
 
-} // namespace
+} // namespace test_sort_together

@@ -17,7 +17,7 @@ using namespace pcl_uvol;
 using uvol_test::readFile;
 using uvol_test::writeFile;
 
-namespace {
+namespace test_comma_locale {
 
 constexpr const char* name = "de_DE.UTF-8";
 
@@ -112,4 +112,4 @@ TEST_F(CommaLocale, ParametersAreTheSame)
   EXPECT_EQ(parameters.isovalues, IsosurfaceParameters::fromJson(expected).isovalues);
 }
 
-} // namespace
+} // namespace test_comma_locale

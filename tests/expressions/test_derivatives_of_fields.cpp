@@ -18,7 +18,7 @@ using namespace pcl_uvol;
 using namespace uvol_test;
 using Eigen::Vector3d;
 
-namespace {
+namespace test_derivatives_of_fields {
 
 Dataset
 makeDataset(const Places& places, const std::vector<Function>& functions)
@@ -75,8 +75,6 @@ cubicGradient(const Vector3d& x)
 }
 
 const Places places = randomPlaces(1500, 5, -1.0, 1.0);
-
-} // namespace
 
 TEST(DerivativesOfFields, CubicsAreExact)
 {
@@ -261,8 +259,6 @@ TEST(DerivativesOfFields, PlanesAndLayers)
   EXPECT_NE(report.warnings[0].find("few planes"), std::string::npos);
 }
 
-namespace {
-
 /** Nodes of layers at a curved wall: the first is 1e-3 thick, each next one 1.25 times
  * as thick, and nodes along the wall are 0.1 apart. */
 Places
@@ -277,8 +273,6 @@ layersAtWall()
       }
   return nodes;
 }
-
-} // namespace
 
 TEST(DerivativesOfFields, LayersAtAWallHaveTheirDerivatives)
 {
@@ -325,8 +319,6 @@ TEST(DerivativesOfFields, MissingValuesAndDuplicates)
   EXPECT_NEAR(slope[3], cubicGradient(vectorOf(places[3])).norm(), 1e-8);
 }
 
-namespace {
-
 /** A wave that repeats in the unit box, with its slope along x. @{ */
 const double k = 2.0 * std::acos(-1.0);
 
@@ -354,8 +346,6 @@ placesAboutBox()
     about[i][i % 3] += i % 4 == 0 ? 1.0 : -1.0;
   return about;
 }
-
-} // namespace
 
 TEST(DerivativesOfFields, BoxesThatRepeatHaveNoEnds)
 {
@@ -427,3 +417,5 @@ TEST(DerivativesOfFields, TooFewSamples)
                       [](const Vector3d&) { return 1.0; }),
             1e-4);
 }
+
+} // namespace test_derivatives_of_fields

@@ -13,7 +13,7 @@
 using namespace pcl_uvol;
 using namespace uvol_test;
 
-namespace {
+namespace test_expressions {
 
 Dataset
 load(const std::string& text)
@@ -76,8 +76,6 @@ caretOf(const std::string& expression)
   const std::size_t line = message.rfind('\n');
   return message.find('^', line) - line - 3; // behind two blanks
 }
-
-} // namespace
 
 TEST(Expressions, Values)
 {
@@ -291,8 +289,6 @@ TEST(Expressions, DerivativesCanBeRefused)
   EXPECT_EQ(addDerivedField(dataset, "u*2", {0, "on a Sunday"}, report), "u*2");
 }
 
-namespace {
-
 std::size_t
 kept(const std::string& where)
 {
@@ -305,8 +301,6 @@ kept(const std::string& where)
             std::size_t(dataset.cloud.width) * dataset.cloud.point_step);
   return dataset.cloud.width;
 }
-
-} // namespace
 
 TEST(SelectRows, Relations)
 {
@@ -374,3 +368,5 @@ TEST(Selection, ComparesNames)
                                   "-hole=A-1&&"})
     EXPECT_THROW(left(wrong), ExpressionError) << wrong;
 }
+
+} // namespace test_expressions

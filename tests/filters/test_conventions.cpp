@@ -17,7 +17,7 @@
 
 using namespace uvol_test;
 
-namespace {
+namespace test_conventions {
 
 constexpr int at_points = vtkDataObject::FIELD_ASSOCIATION_POINTS;
 
@@ -400,4 +400,4 @@ INSTANTIATE_TEST_SUITE_P(Vtk,
                                          FilterCase{"Splats", makeSplats}),
                          name_of);
 
-} // namespace
+} // namespace test_conventions

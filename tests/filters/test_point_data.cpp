@@ -20,7 +20,7 @@
 using namespace pcl_uvol;
 using namespace uvol_test;
 
-namespace {
+namespace test_point_data {
 
 vtkSmartPointer<vtkPolyData>
 makePoints(vtkIdType count)
@@ -264,4 +264,4 @@ TEST(PointData, BadInput)
   EXPECT_THROW(fromPointCloud(cloud), InvalidArgument);
 }
 
-} // namespace
+} // namespace test_point_data

@@ -15,7 +15,7 @@
 
 using namespace uvol_test;
 
-namespace {
+namespace test_probe {
 
 /** A plane of 9 x 7 points within the samples. */
 vtkSmartPointer<vtkImageData>
@@ -220,4 +220,4 @@ TEST_F(VtkProbe, PrintsItself)
     EXPECT_NE(text.str().find(word), std::string::npos) << text.str();
 }
 
-} // namespace
+} // namespace test_probe

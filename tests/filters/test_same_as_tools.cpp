@@ -19,7 +19,7 @@
 
 using namespace uvol_test;
 
-namespace {
+namespace test_same_as_tools {
 
 void
 write(const std::string& path, vtkPolyData* data)
@@ -395,4 +395,4 @@ TEST(VtkSplats, SamePointsAsTheTool)
   }
 }
 
-} // namespace
+} // namespace test_same_as_tools

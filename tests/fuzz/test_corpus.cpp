@@ -16,7 +16,7 @@
 #include <limits>
 #include <thread>
 
-namespace {
+namespace test_corpus {
 
 using uvol_fuzz::Target;
 namespace fs = std::filesystem;
@@ -173,4 +173,4 @@ INSTANTIATE_TEST_SUITE_P(Fuzz,
                          testing::ValuesIn(uvol_fuzz::listTargets()),
                          [](const auto& target) { return target.param.name; });
 
-} // namespace
+} // namespace test_corpus

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace {
+namespace test_analytic_fields {
 
 TEST(AnalyticFields, IsovaluesLieInTheRangeOfTheirField)
 {
@@ -100,4 +100,4 @@ TEST(Report, AddsUpAndKeepsTheOrder)
   EXPECT_EQ(1u, a.warnings.size());
 }
 
-} // namespace
+} // namespace test_analytic_fields

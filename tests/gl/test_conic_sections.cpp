@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace {
+namespace test_conic_sections {
 
 using pcl_uvol::ConicSections;
 using pcl_uvol::GlContext;
@@ -345,4 +345,4 @@ TEST(ConicSections, LayersThatAreTooLargeForTheDriver)
   });
 }
 
-} // namespace
+} // namespace test_conic_sections

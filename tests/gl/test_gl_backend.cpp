@@ -12,7 +12,7 @@
 #include <memory>
 #include <string>
 
-namespace {
+namespace test_gl_backend {
 
 using namespace uvol_test;
 using pcl_uvol::Background;
@@ -531,4 +531,4 @@ TEST(GlBackend, NeedsAContext)
   EXPECT_THROW(GlBackend(nullptr), pcl_uvol::InvalidArgument);
 }
 
-} // namespace
+} // namespace test_gl_backend

@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-namespace {
+namespace test_gl_context {
 
 using pcl_uvol::EglDevice;
 using pcl_uvol::GlContext;
@@ -279,4 +279,4 @@ TEST(GlContext, AMissingFunctionIsNamed)
   });
 }
 
-} // namespace
+} // namespace test_gl_context

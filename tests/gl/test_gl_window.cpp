@@ -6,7 +6,7 @@
 #include <GL/glcorearb.h>
 #include <memory>
 
-namespace {
+namespace test_gl_window {
 
 using namespace uvol_test;
 using pcl_uvol::GlBackend;
@@ -261,4 +261,4 @@ TEST_P(GlWindow, AntiAliasedBordersBlend)
   EXPECT_GT(blended, 50);
 }
 
-} // namespace
+} // namespace test_gl_window

@@ -12,7 +12,7 @@
 #include <random>
 #include <vector>
 
-namespace {
+namespace test_blend_kernel {
 
 using namespace pcl_uvol;
 
@@ -160,4 +160,4 @@ TEST(BlendKernel, EvaluatesCubicsAndTheirGradients)
   });
 }
 
-} // namespace
+} // namespace test_blend_kernel

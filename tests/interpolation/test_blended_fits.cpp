@@ -15,7 +15,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace {
+namespace test_blended_fits {
 
 using namespace pcl_uvol;
 using namespace uvol_test;
@@ -356,4 +356,4 @@ TEST(BlendedFits, ValuesInCellsOfBluntFin)
   EXPECT_LT(quantile(errors, 0.95), 0.1);
 }
 
-} // namespace
+} // namespace test_blended_fits

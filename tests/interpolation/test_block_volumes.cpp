@@ -16,7 +16,7 @@
 #include <functional>
 #include <vector>
 
-namespace {
+namespace test_block_volumes {
 
 using namespace pcl_uvol;
 using namespace pcl_uvol::detail;
@@ -197,4 +197,4 @@ TEST(BlockVolumes, RefuseWhatTheyCannotTell)
   EXPECT_TRUE(std::isnan(found.isovalues[2].mean));
 }
 
-} // namespace
+} // namespace test_block_volumes

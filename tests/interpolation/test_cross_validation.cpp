@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace test_cross_validation {
 
 using namespace pcl_uvol;
 using namespace uvol_test;
@@ -178,4 +178,4 @@ TEST(CrossValidation, CountsErrorsRight)
   EXPECT_EQ(some[0].tested, 2u);
 }
 
-} // namespace
+} // namespace test_cross_validation

@@ -11,7 +11,7 @@
 #include <map>
 #include <vector>
 
-namespace {
+namespace test_directional_variogram {
 
 using Eigen::Array3d;
 using pcl_uvol::detail::OffsetClass;
@@ -108,4 +108,4 @@ TEST(FitFactors, FindsTheRatioThatOrdersClasses)
   EXPECT_GT(pcl_uvol::detail::explainedBy(classes, found), 0.999);
 }
 
-} // namespace
+} // namespace test_directional_variogram

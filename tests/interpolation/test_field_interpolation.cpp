@@ -17,7 +17,7 @@
 #include <cmath>
 #include <limits>
 
-namespace {
+namespace test_field_interpolation {
 
 using namespace pcl_uvol;
 using namespace uvol_test;
@@ -405,4 +405,4 @@ TEST(FieldInterpolation, AnswersBecomeFieldsOfTheQueries)
   EXPECT_THROW(appendFields(result, points), InvalidArgument);
 }
 
-} // namespace
+} // namespace test_field_interpolation

@@ -13,7 +13,7 @@
 #include <numeric>
 #include <vector>
 
-namespace {
+namespace test_gap_test {
 
 using Eigen::Array3d;
 using pcl_uvol::Position;
@@ -120,4 +120,4 @@ TEST(GapTest, AFewSamplesAreNoTrouble)
   }
 }
 
-} // namespace
+} // namespace test_gap_test

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace {
+namespace test_kernel_sums {
 
 using namespace pcl_uvol;
 using namespace pcl_uvol::detail;
@@ -150,4 +150,4 @@ TEST(KernelSums, CompletesWhatParticlesLack)
   EXPECT_NEAR(mean, 0.9, 0.1);
 }
 
-} // namespace
+} // namespace test_kernel_sums

@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-namespace {
+namespace test_kriging {
 
 using namespace pcl_uvol;
 using namespace uvol_test;
@@ -257,4 +257,4 @@ TEST(Kriging, RefusesImpossibleVariograms)
   refuses([](auto& kriging) { kriging.ratios[2] = 0.0f; });
 }
 
-} // namespace
+} // namespace test_kriging

@@ -15,7 +15,7 @@
 #include <numeric>
 #include <vector>
 
-namespace {
+namespace test_kriging_system {
 
 using namespace pcl_uvol;
 using namespace pcl_uvol::detail;
@@ -313,4 +313,4 @@ TEST(EmpiricalVariogram, OfRootsIsThatOfSquaresAndBearsSpikes)
     }
 }
 
-} // namespace
+} // namespace test_kriging_system

@@ -13,7 +13,7 @@
 #include <limits>
 #include <numeric>
 
-namespace {
+namespace test_model_choice {
 
 using namespace pcl_uvol;
 using namespace uvol_test;
@@ -234,4 +234,4 @@ TEST(AnswerSummary, TellsTheRangeOfAllBlocks)
   EXPECT_EQ(field.unsure, 0u);
 }
 
-} // namespace
+} // namespace test_model_choice

@@ -12,7 +12,7 @@
 #include <map>
 #include <numeric>
 
-namespace {
+namespace test_natural_model {
 
 using namespace pcl_uvol;
 using namespace pcl_uvol::detail;
@@ -356,4 +356,4 @@ TEST(ConvexPolygon, MayHaveManyVertices)
   EXPECT_EQ(0u, polygon.size());
 }
 
-} // namespace
+} // namespace test_natural_model

@@ -12,7 +12,7 @@
 
 using namespace pcl_uvol;
 
-namespace {
+namespace test_outer_layer {
 
 /** Samples at random in a ball (or in the shell outside of `hollow`), f = 1. */
 Dataset
@@ -111,4 +111,4 @@ TEST(OuterLayer, RefusesWhatCannotBe)
   EXPECT_NO_THROW(addOuterLayer(ball, "id", 3.0, 1, report));
 }
 
-} // namespace
+} // namespace test_outer_layer

@@ -12,7 +12,7 @@
 #include <limits>
 #include <numeric>
 
-namespace {
+namespace test_query_lattice {
 
 using namespace pcl_uvol;
 using namespace pcl_uvol::detail;
@@ -198,4 +198,4 @@ TEST(QueryLattice, BlocksGiveWhatSingleQueriesGet)
   EXPECT_EQ(1, std::count(progress.begin(), progress.end(), 0.0));
 }
 
-} // namespace
+} // namespace test_query_lattice

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <limits>
 
-namespace {
+namespace test_reduced_fit {
 
 using pcl_uvol::detail::ReducedFit;
 
@@ -121,4 +121,4 @@ TEST(ReducedFit, PlanesHaveNoDerivativesAcross)
     EXPECT_NEAR(0.0, found[term], 1e-9) << term;
 }
 
-} // namespace
+} // namespace test_reduced_fit

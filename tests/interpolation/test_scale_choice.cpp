@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace test_scale_choice {
 
 using Eigen::Array3d;
 using Eigen::Array3f;
@@ -252,4 +252,4 @@ TEST(ChooseScale, NeedsAFieldWithValues)
                pcl_uvol::InvalidArgument);
 }
 
-} // namespace
+} // namespace test_scale_choice

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-namespace {
+namespace test_simple_models {
 
 using namespace pcl_uvol;
 using namespace uvol_test;
@@ -74,4 +74,4 @@ TEST(SimpleModels, InverseDistancesAreAsShepardHasThem)
   }
 }
 
-} // namespace
+} // namespace test_simple_models

@@ -15,7 +15,7 @@
 
 using namespace pcl_uvol;
 
-namespace {
+namespace test_sph_density {
 
 constexpr double pi = 3.14159265358979323846;
 
@@ -172,4 +172,4 @@ TEST(SphDensity, OfAPlanetIsThatOfItsFile)
     EXPECT_NEAR(1.0, densities[i] / read(planet, "RHO", i), 0.01) << i;
 }
 
-} // namespace
+} // namespace test_sph_density

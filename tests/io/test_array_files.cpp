@@ -10,7 +10,7 @@
 using namespace pcl_uvol;
 using namespace uvol_test;
 
-namespace {
+namespace test_array_files {
 
 template <typename T>
 void
@@ -340,4 +340,4 @@ TEST_F(ArrayFiles, JoinedPackedFilesAreReadToTheEnd)
   }
 }
 
-} // namespace
+} // namespace test_array_files

@@ -10,7 +10,7 @@
 using namespace pcl_uvol;
 using namespace uvol_test;
 
-namespace {
+namespace test_bad_files {
 
 /** The error of loading such a file: one sentence that names it, nothing printed. */
 std::string
@@ -86,8 +86,6 @@ const char* const ascii_ply =
     "property int y\nproperty double z\nproperty list uchar "
     "int l\nelement face 1\nproperty list uchar int i\n"
     "end_header\n3 1 2 3\n1 2 nan 2 7 8\n4 5 6 0\n3 0 1 2\n";
-
-} // namespace
 
 TEST(BadFiles, MissingFolderEmptyUnknown)
 {
@@ -353,3 +351,5 @@ TEST(AtomicWriting, PathsThatCannotBe)
   EXPECT_NO_THROW(checkSavePath("in_this_folder.PLY"));
   EXPECT_EQ(folder.list(), (std::vector<std::string>{"d.ply", "file"}));
 }
+
+} // namespace test_bad_files

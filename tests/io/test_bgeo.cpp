@@ -13,7 +13,7 @@
 using namespace pcl_uvol;
 using namespace uvol_test;
 
-namespace {
+namespace test_bgeo {
 
 /** The highest byte first. */
 template <typename T>
@@ -318,4 +318,4 @@ TEST_F(Bgeo, DamageIsOneSentence)
     }
 }
 
-} // namespace
+} // namespace test_bgeo

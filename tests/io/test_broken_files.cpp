@@ -15,7 +15,7 @@
 using namespace pcl_uvol;
 using namespace uvol_test;
 
-namespace {
+namespace test_broken_files {
 
 /** "" if a reader takes the file, else what it says. */
 template <typename Reader>
@@ -530,4 +530,4 @@ TEST(BrokenFiles, ThoseBesideTheData)
   readFolder(folder);
 }
 
-} // namespace
+} // namespace test_broken_files

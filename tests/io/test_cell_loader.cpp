@@ -31,7 +31,7 @@
 #include <cmath>
 #include <memory>
 
-namespace {
+namespace test_cell_loader {
 
 using namespace uvol_test;
 using pcl_uvol::Dataset;
@@ -411,4 +411,4 @@ TEST_F(CellLoader, DamagedCellsAreAnError)
   EXPECT_EQ(samples_.cloud.width, 210u); // the points are there all the same
 }
 
-} // namespace
+} // namespace test_cell_loader

@@ -37,7 +37,7 @@
 #include <functional>
 #include <set>
 
-namespace {
+namespace test_cells {
 
 using namespace uvol_test;
 using pcl_uvol::Dataset;
@@ -352,4 +352,4 @@ TEST_F(Cells, WhatHasNoneIsRefused)
   EXPECT_NE("", messageOf(folder_ / "empty.htg"));
 }
 
-} // namespace
+} // namespace test_cells

@@ -8,7 +8,7 @@
 using namespace pcl_uvol;
 using namespace uvol_test;
 
-namespace {
+namespace test_coordinate_columns {
 
 /** As many cells as the header has, with the numbers 1.5, 2.5, ... */
 std::string
@@ -197,4 +197,4 @@ TEST(CoordinateColumns, ThreeNumbersAreNumbers)
   EXPECT_EQ((std::array<double, 3>{3, 2, 1}), chosen({"0", "1", "2"}, "2,1,0,a"));
 }
 
-} // namespace
+} // namespace test_coordinate_columns

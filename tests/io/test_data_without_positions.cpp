@@ -3,7 +3,7 @@
 #include "random_dataset.h"
 #include <pcl_uvol/common/exceptions.h>
 
-namespace {
+namespace test_data_without_positions {
 
 using namespace pcl_uvol;
 using namespace uvol_test;
@@ -147,4 +147,4 @@ TEST(DataWithoutPositions, CanBeWrittenAndRead)
   }
 }
 
-} // namespace
+} // namespace test_data_without_positions

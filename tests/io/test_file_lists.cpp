@@ -9,7 +9,7 @@
 using namespace pcl_uvol;
 using namespace uvol_test;
 
-namespace {
+namespace test_file_lists {
 
 class FileLists : public testing::Test {
 protected:
@@ -150,4 +150,4 @@ TEST_F(FileLists, ExodusHasTheFieldsOfItsNodes)
     EXPECT_EQ(extremes(converted, name), extremes(found, name)) << name;
 }
 
-} // namespace
+} // namespace test_file_lists

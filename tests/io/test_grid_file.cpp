@@ -9,7 +9,7 @@
 
 #include <numeric>
 
-namespace {
+namespace test_grid_file {
 
 using pcl_uvol::GridShape;
 using pcl_uvol::saveVoronoiGrid;
@@ -125,4 +125,4 @@ TEST(GridFile, OtherNamesAreRefused)
   EXPECT_TRUE(folder.list().empty());
 }
 
-} // namespace
+} // namespace test_grid_file

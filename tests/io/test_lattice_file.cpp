@@ -19,7 +19,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace {
+namespace test_lattice_file {
 
 using namespace pcl_uvol;
 using pcl_uvol::detail::QueryLattice;
@@ -163,4 +163,4 @@ TEST(LatticeFile, AppearsWholeOrNotAtAll)
   EXPECT_FALSE(isLatticeFile("a.vtp"));
 }
 
-} // namespace
+} // namespace test_lattice_file

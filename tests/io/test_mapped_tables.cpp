@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace test_mapped_tables {
 
 using namespace pcl_uvol;
 using uvol_test::fieldOf;
@@ -206,4 +206,4 @@ TEST_F(MappedTables, OptionsOfOtherFormatsAreLeftOut)
   EXPECT_TRUE(adapted.particles.empty());
 }
 
-} // namespace
+} // namespace test_mapped_tables

@@ -8,7 +8,7 @@
 
 #include <cstring>
 
-namespace {
+namespace test_mesh {
 
 using pcl_uvol::IOError;
 using pcl_uvol::loadMesh;
@@ -95,4 +95,4 @@ TEST(Mesh, CornersMustBeVertices)
   }
 }
 
-} // namespace
+} // namespace test_mesh

@@ -10,7 +10,7 @@
 #include <sstream>
 #include <tuple>
 
-namespace {
+namespace test_mesh_formats {
 
 using namespace pcl_uvol;
 using namespace uvol_test;
@@ -360,4 +360,4 @@ TEST(MeshFormats, OtherEndingsAreRefused)
   EXPECT_TRUE(folder.list().empty());
 }
 
-} // namespace
+} // namespace test_mesh_formats

@@ -6,7 +6,7 @@
 
 #include <cstring>
 
-namespace {
+namespace test_mesh_writing {
 
 using namespace pcl_uvol;
 using namespace uvol_test;
@@ -138,4 +138,4 @@ TEST(MeshWriting, FieldsThatPlyCannotHoldAreLeftOut)
   EXPECT_EQ(valueOf(dataset, "a", 2), valueOf(loaded, "a", 2));
 }
 
-} // namespace
+} // namespace test_mesh_writing

@@ -12,7 +12,7 @@
 using namespace pcl_uvol;
 using namespace uvol_test;
 
-namespace {
+namespace test_names {
 
 /** The name of the only field besides the coordinates. */
 std::string
@@ -144,4 +144,4 @@ TEST(Names, EscapesForTerminals)
   EXPECT_EQ("'" + std::string(40, 'a') + "'", quoteText(std::string(40, 'a')));
 }
 
-} // namespace
+} // namespace test_names

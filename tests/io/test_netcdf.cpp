@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace test_netcdf {
 
 using namespace pcl_uvol;
 
@@ -417,4 +417,4 @@ TEST_P(Netcdf, AnswersDamagedFilesByASentence)
 
 INSTANTIATE_TEST_SUITE_P(Formats, Netcdf, ::testing::Values(0, NC_NETCDF4));
 
-} // namespace
+} // namespace test_netcdf

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <map>
 
-namespace {
+namespace test_peek_header {
 
 using pcl_uvol::peekHeader;
 using uvol_test::FieldSpec;
@@ -130,4 +130,4 @@ TEST_F(CloudHeader, IsNothingForMoreThanPclCanNumber)
   EXPECT_FALSE(peekHeader(folder_ / "a.pcd"));
 }
 
-} // namespace
+} // namespace test_peek_header

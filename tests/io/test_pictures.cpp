@@ -11,7 +11,7 @@
 #include <cmath>
 #include <string>
 
-namespace {
+namespace test_pictures {
 
 using pcl_uvol::Image;
 using pcl_uvol::IOError;
@@ -82,4 +82,4 @@ TEST(Png, RefusesOtherNamesFoldersAndNoPixels)
   EXPECT_TRUE(folder.list().empty());
 }
 
-} // namespace
+} // namespace test_pictures

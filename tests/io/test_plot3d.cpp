@@ -8,7 +8,7 @@
 using namespace pcl_uvol;
 using namespace uvol_test;
 
-namespace {
+namespace test_plot3d {
 
 struct Plot3dLayout {
   bool swapped, marked, several, doubles, blanked;
@@ -187,4 +187,4 @@ TEST(Plot3d, RealGridsAreThoseOfVtk)
       EXPECT_EQ(valueAt(converted, name, i), valueAt(found, name, i)) << name;
 }
 
-} // namespace
+} // namespace test_plot3d

@@ -10,7 +10,7 @@
 using namespace pcl_uvol;
 using namespace uvol_test;
 
-namespace {
+namespace test_point_stream {
 
 void
 expectSameLayout(const pcl::PCLPointCloud2& actual, const pcl::PCLPointCloud2& expected)
@@ -190,8 +190,6 @@ streamErrorOf(const std::string& path)
     }
   });
 }
-
-} // namespace
 
 TEST(PointStream, EveryTypeOfField)
 {
@@ -429,3 +427,5 @@ TEST(PointStream, TakesLittleMemoryBesideTheBlock)
     EXPECT_LE(pcl_uvol::peakMemory(), before + 2000000) << name;
   }
 }
+
+} // namespace test_point_stream

@@ -17,7 +17,7 @@
 using namespace pcl_uvol;
 using namespace uvol_test;
 
-namespace {
+namespace test_rank_files {
 
 /** What all ranks read. */
 struct Parts {
@@ -323,4 +323,4 @@ TEST(RankFiles, KnowWhereTheyCanWrite)
   EXPECT_THROW(checkSavePieces(folder / "none/out.pvtp"), IOError);
 }
 
-} // namespace
+} // namespace test_rank_files

@@ -10,7 +10,7 @@
 using namespace pcl_uvol;
 using namespace uvol_test;
 
-namespace {
+namespace test_round_trip {
 
 struct Format {
   std::string file;
@@ -63,8 +63,6 @@ largeCoordinates(const std::array<double, 3>& shift, std::size_t count)
     xyz.push_back(100.0 * random.uniform() + shift[i % 3]);
   return xyz;
 }
-
-} // namespace
 
 TEST(RoundTrip, RandomSchemasKeepEveryBit)
 {
@@ -153,8 +151,6 @@ TEST(RoundTrip, NamesAndCommentsThatFormatsLack)
   }
 }
 
-namespace {
-
 /** Points whose field "id" has these bits. */
 Dataset
 withIntegers(std::uint8_t datatype, const std::vector<std::uint64_t>& numbers)
@@ -169,8 +165,6 @@ withIntegers(std::uint8_t datatype, const std::vector<std::uint64_t>& numbers)
                 sizeof(numbers[i]));
   return dataset;
 }
-
-} // namespace
 
 TEST(RoundTrip, IntegersThatPlyLacksBecomeDoublesIfTheseAreExact)
 {
@@ -261,3 +255,5 @@ TEST(Coordinates, LargeOnesKeepTheirDigits)
     EXPECT_EQ(valueOf(loaded, "a", 7), valueOf(dataset, "a", 7));
   }
 }
+
+} // namespace test_round_trip

@@ -7,7 +7,7 @@
 using namespace pcl_uvol;
 using namespace uvol_test;
 
-namespace {
+namespace test_scene_errors {
 
 class SceneErrors : public SceneText {
 protected:
@@ -30,8 +30,6 @@ protected:
     EXPECT_EQ(error.find(start), 0u) << text << " gives " << error;
   }
 };
-
-} // namespace
 
 TEST_F(SceneErrors, WordsThatAreNotKnownOrTooMany)
 {
@@ -195,3 +193,5 @@ TEST_F(SceneErrors, CloudsThatCannotBeDrawn)
   writeFile(folder_ / "tiny.csv", tiny);
   expectError("cloud tiny.csv scale 1e-30", "1:1: a splat of 'tiny.csv' becomes");
 }
+
+} // namespace test_scene_errors

@@ -10,7 +10,7 @@
 using namespace pcl_uvol;
 using namespace uvol_test;
 
-namespace {
+namespace test_scene_file {
 
 /** A splat whose numbers are all different. */
 pcl_uvol::PointSplat
@@ -93,8 +93,6 @@ protected:
 
   SceneFile loaded_;
 };
-
-} // namespace
 
 TEST_F(SceneItems, WhatItDoesNotSayIsAsEver)
 {
@@ -437,3 +435,5 @@ TEST_F(SceneItems, IncludesAndFolders)
   writeFile(folder_ / "ball.txt", "sphere 0 0 0 1");
   EXPECT_EQ(load("include ball.txt\ninclude ball.txt").scene.spheres.size(), 2u);
 }
+
+} // namespace test_scene_file

@@ -12,7 +12,7 @@
 using namespace pcl_uvol;
 using namespace uvol_test;
 
-namespace {
+namespace test_snapshots {
 
 /** Blocks give the bytes of the whole, and the header tells of it. */
 void
@@ -457,4 +457,4 @@ TEST_F(Hdf5, DamageIsOneSentence)
   EXPECT_NE(std::string::npos, sentenceOf(path).find("it is no file of HDF5"));
 }
 
-} // namespace
+} // namespace test_snapshots

@@ -16,7 +16,7 @@
 
 #include <numeric>
 
-namespace {
+namespace test_strays {
 
 using namespace uvol_test;
 using pcl_uvol::Dataset;
@@ -136,4 +136,4 @@ TEST(Scale, BeyondFloatIsRefusedOrWorks)
   EXPECT_THROW(extract(makeSamples(0), settings), pcl_uvol::InvalidArgument);
 }
 
-} // namespace
+} // namespace test_strays

@@ -8,7 +8,7 @@
 
 #include <filesystem>
 
-namespace {
+namespace test_table_file {
 
 using pcl_uvol::checkTablePath;
 using pcl_uvol::IOError;
@@ -62,4 +62,4 @@ TEST(TableFile, CheckingLeavesNothingBehindAndWhatIsThereAlone)
   EXPECT_EQ(text, uvol_test::readFile(folder / "old.csv"));
 }
 
-} // namespace
+} // namespace test_table_file

@@ -8,7 +8,7 @@
 using namespace pcl_uvol;
 using namespace uvol_test;
 
-namespace {
+namespace test_text_tables {
 
 Dataset
 load(const std::string& text,
@@ -33,8 +33,6 @@ errorOf(const std::string& text, const LoadOptions& options = {})
 }
 
 const std::string xyz = "x (float32), y (float32), z (float32)";
-
-} // namespace
 
 TEST(TextTables, Separators)
 {
@@ -373,3 +371,5 @@ TEST(RealData, KnownNumbers)
   const auto protein = loadDataset(dataFolder() + "/volumes/ironProt.vtk");
   EXPECT_EQ(protein.cloud.width, 314432u);
 }
+
+} // namespace test_text_tables

@@ -18,7 +18,7 @@
 #include <cmath>
 #include <mutex>
 
-namespace {
+namespace test_units {
 
 using namespace uvol_test;
 using pcl_uvol::Dataset;
@@ -254,4 +254,4 @@ INSTANTIATE_TEST_SUITE_P(Exponents,
 
 /** Rows that lie beyond all reach. */
 
-} // namespace
+} // namespace test_units

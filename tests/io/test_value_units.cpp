@@ -16,7 +16,7 @@
 #include <functional>
 #include <numeric>
 
-namespace {
+namespace test_value_units {
 
 using namespace uvol_test;
 using pcl_uvol::Dataset;
@@ -187,4 +187,4 @@ TEST(Values, OffsetsCostNothingOnDisk)
   EXPECT_EQ(40000u, report.getCount("samples"));
 }
 
-} // namespace
+} // namespace test_value_units

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <limits>
 
-namespace {
+namespace test_volume {
 
 using pcl_uvol::IOError;
 using pcl_uvol::loadVolume;
@@ -180,4 +180,4 @@ TEST(DatasetInfo, ValuesAndPositions)
   EXPECT_EQ(2.0, positions.spacing_max);
 }
 
-} // namespace
+} // namespace test_volume

@@ -29,7 +29,7 @@
 using namespace pcl_uvol;
 using namespace uvol_test;
 
-namespace {
+namespace test_vtk_readers {
 
 template <typename ArrayT>
 void
@@ -280,4 +280,4 @@ TEST(VtkReaders, PiecesOfAGridGoToTheirPlaces)
                                }).find("do not hold all points"));
 }
 
-} // namespace
+} // namespace test_vtk_readers

@@ -14,7 +14,7 @@
 using namespace pcl_uvol;
 using namespace uvol_test;
 
-namespace {
+namespace test_vtkhdf {
 
 /** The numbers of a table, by the library. */
 std::vector<double>
@@ -424,4 +424,4 @@ TEST_F(VtkHdf, WritingThatFailsLeavesNothing)
   EXPECT_TRUE(folder_.list().empty());
 }
 
-} // namespace
+} // namespace test_vtkhdf

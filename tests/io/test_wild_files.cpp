@@ -10,7 +10,7 @@
 using namespace pcl_uvol;
 using namespace uvol_test;
 
-namespace {
+namespace test_wild_files {
 
 class WildFiles : public testing::Test {
 protected:
@@ -91,4 +91,4 @@ TEST_F(WildFiles, LargestFloatsAreNotPlaces)
   EXPECT_EQ(30u, missing);
 }
 
-} // namespace
+} // namespace test_wild_files

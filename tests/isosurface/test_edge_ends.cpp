@@ -7,7 +7,7 @@
 
 #include <set>
 
-namespace {
+namespace test_edge_ends {
 
 using pcl_uvol::GlobalIsopoint;
 
@@ -44,4 +44,4 @@ TEST(EdgeEnds, OfNothingAreNone)
   EXPECT_TRUE(ends.edges.empty());
 }
 
-} // namespace
+} // namespace test_edge_ends

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace {
+namespace test_estimated_surfaces {
 
 using Cloud = pcl::PointCloud<pcl::PointXYZI>;
 
@@ -96,4 +96,4 @@ TEST(EstimatedSurfaces, NeedMoreMemoryTheLargerTheyAre)
   EXPECT_GT(two.kept, one.kept);
 }
 
-} // namespace
+} // namespace test_estimated_surfaces

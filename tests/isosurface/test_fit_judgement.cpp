@@ -10,7 +10,7 @@
 #include <numeric>
 #include <vector>
 
-namespace {
+namespace test_fit_judgement {
 
 using namespace pcl_uvol;
 
@@ -248,4 +248,4 @@ TEST(FitJudgement, IsopointsInGapsAreSureOfTheirEdgeOnly)
   EXPECT_FLOAT_EQ(6.0f, point.error);
 }
 
-} // namespace
+} // namespace test_fit_judgement

@@ -12,7 +12,7 @@
 #include <cstring>
 #include <limits>
 
-namespace {
+namespace test_iso_edges {
 
 /** A packed cloud of one field of doubles, floats or integers, count numbers per point.
  */
@@ -143,4 +143,4 @@ TEST(InterpolateFields, FieldsThatGiveWayAreWarnedOf)
   }
 }
 
-} // namespace
+} // namespace test_iso_edges

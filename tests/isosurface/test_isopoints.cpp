@@ -10,7 +10,7 @@
 #include <map>
 #include <vector>
 
-namespace {
+namespace test_isopoints {
 
 using namespace pcl_uvol;
 using Eigen::Vector3d;
@@ -128,4 +128,4 @@ TEST(AppendIsopoints, AverageTheOutsideVectorsOfAllEdgesThatMeet)
   }
 }
 
-} // namespace
+} // namespace test_isopoints

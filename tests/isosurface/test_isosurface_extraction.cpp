@@ -20,7 +20,7 @@
 #include <set>
 #include <string>
 
-namespace {
+namespace test_isosurface_extraction {
 
 using pcl_uvol::AngleCriterion;
 using pcl_uvol::Interpolation;
@@ -500,4 +500,4 @@ TEST(IsosurfaceExtraction, BadInputThrowsAndLeavesTheOutputAlone)
   expectThrow(nowhere, nothing);
 }
 
-} // namespace
+} // namespace test_isosurface_extraction

@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-namespace {
+namespace test_left_out_lines {
 
 using namespace pcl_uvol;
 using Eigen::Vector3d;
@@ -187,4 +187,4 @@ TEST(SampleLines, AreThereWhereTwoSpacingsAreTwiceTheThird)
   EXPECT_EQ(0.0, findLines(spacingsOf(0.1, 0.19, 0.15)).spacing); // all around
 }
 
-} // namespace
+} // namespace test_left_out_lines

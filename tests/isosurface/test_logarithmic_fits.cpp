@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace test_logarithmic_fits {
 
 using namespace pcl_uvol;
 using Eigen::Vector3d;
@@ -337,4 +337,4 @@ TEST(LogarithmicFits, LeaveFieldsThatCubicsFollow)
   EXPECT_GT(measured, 30u);
 }
 
-} // namespace
+} // namespace test_logarithmic_fits

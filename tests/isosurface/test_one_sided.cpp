@@ -12,7 +12,7 @@
 #include <cmath>
 #include <memory>
 
-namespace {
+namespace test_one_sided {
 
 using namespace pcl_uvol;
 
@@ -145,4 +145,4 @@ TEST(OneSided, FewSamplesContradictNothing)
   EXPECT_EQ(0u, found.contradicted);
 }
 
-} // namespace
+} // namespace test_one_sided

@@ -12,7 +12,7 @@
 #include <random>
 #include <vector>
 
-namespace {
+namespace test_planar_isopoints {
 
 using namespace pcl_uvol;
 using Eigen::Matrix3d;
@@ -219,4 +219,4 @@ TEST(PlanarIsopoints, AreNotMadeUpOfLinesAndFewSamples)
   }
 }
 
-} // namespace
+} // namespace test_planar_isopoints

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <string>
 
-namespace {
+namespace test_ros_conversions {
 
 struct Stamp {
   std::int32_t sec = 0;
@@ -94,4 +94,4 @@ TEST(RosConversions, TrianglesBecomeCorners)
   EXPECT_EQ(-1.0, marker.points[0].z);
 }
 
-} // namespace
+} // namespace test_ros_conversions

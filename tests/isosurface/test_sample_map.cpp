@@ -10,7 +10,7 @@
 #include <cstring>
 #include <thread>
 
-namespace {
+namespace test_sample_map {
 
 using namespace pcl_uvol;
 using Point = pcl::PointXYZI;
@@ -186,4 +186,4 @@ TEST(SampleMap, RefusesWhatCannotBe)
   EXPECT_THROW(map.extractInBackground(makeParameters()).get(), InvalidArgument);
 }
 
-} // namespace
+} // namespace test_sample_map

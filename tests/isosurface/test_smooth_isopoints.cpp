@@ -15,7 +15,7 @@
 #include <functional>
 #include <numeric>
 
-namespace {
+namespace test_smooth_isopoints {
 
 using pcl_uvol::Interpolation;
 using pcl_uvol::IsoSupport;
@@ -380,4 +380,4 @@ TEST(SmoothIsopoints, ALatticeIsFittedToo)
   EXPECT_LE(smooth, 0.05 * linear);
 }
 
-} // namespace
+} // namespace test_smooth_isopoints

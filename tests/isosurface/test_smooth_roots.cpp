@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace test_smooth_roots {
 
 using namespace pcl_uvol;
 using Eigen::Vector3d;
@@ -331,4 +331,4 @@ TEST(SmoothRoots, StayOnEdgesAcrossWideGaps)
   }
 }
 
-} // namespace
+} // namespace test_smooth_roots

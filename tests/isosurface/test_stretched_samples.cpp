@@ -13,7 +13,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace {
+namespace test_stretched_samples {
 
 using pcl_uvol::IsoSupport;
 using Cloud = pcl::PointCloud<pcl::PointXYZI>;
@@ -364,4 +364,4 @@ TEST(LabelFields, AreNotWhatQuantisedDataAre)
   EXPECT_LE(extraction.getReport().getCount("linear_step"), surface.size() / 1000);
 }
 
-} // namespace
+} // namespace test_stretched_samples

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <vector>
 
-namespace {
+namespace test_band {
 
 using namespace pcl_uvol;
 using Eigen::Vector3d;
@@ -118,4 +118,4 @@ TEST(Reinitialization, DistancesAreThoseOfTheStretchedSpace)
   EXPECT_GT(near, 300u);
 }
 
-} // namespace
+} // namespace test_band

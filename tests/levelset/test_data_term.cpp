@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-namespace {
+namespace test_data_term {
 
 using namespace pcl_uvol;
 using Eigen::Vector3d;
@@ -113,4 +113,4 @@ TEST(DataTerm, KnowsTheNoise)
   }
 }
 
-} // namespace
+} // namespace test_data_term

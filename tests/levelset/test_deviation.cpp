@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-namespace {
+namespace test_deviation {
 
 using namespace pcl_uvol;
 using uvol_test::PlaneBand;
@@ -105,4 +105,4 @@ TEST(Deviation, AnyNumberOfThreadsGivesTheSame)
             findDeviations(band().band, setup.phi, setup.term, shares, 3));
 }
 
-} // namespace
+} // namespace test_deviation

@@ -13,7 +13,7 @@
 #include <random>
 #include <vector>
 
-namespace {
+namespace test_evolution_kernel {
 
 using namespace pcl_uvol;
 using Eigen::Matrix3d;
@@ -342,4 +342,4 @@ TEST(EvolutionKernel, AveragesAreThoseOverCentres)
   }
 }
 
-} // namespace
+} // namespace test_evolution_kernel

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <vector>
 
-namespace {
+namespace test_evolver {
 
 using namespace pcl_uvol;
 using Eigen::Vector3d;
@@ -214,4 +214,4 @@ TEST(Evolver, IsBoundedUpToTheLargestValue)
   EXPECT_FALSE(motion.evolver.isBounded(largest));
 }
 
-} // namespace
+} // namespace test_evolver

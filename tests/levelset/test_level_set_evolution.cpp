@@ -20,7 +20,7 @@
 #include <random>
 #include <utility>
 
-namespace {
+namespace test_level_set_evolution {
 
 using pcl_uvol::CurvatureFlow;
 using pcl_uvol::FitScheme;
@@ -489,4 +489,4 @@ TEST(LevelSetEvolution, CloudOfPhi)
   EXPECT_THROW(pcl_uvol::makePhiCloud(view, {1.0f}), InvalidArgument);
 }
 
-} // namespace
+} // namespace test_level_set_evolution

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <string>
 
-namespace {
+namespace test_level_set_noise {
 
 using pcl_uvol::Interpolation;
 using uvol_test::Evolution;
@@ -120,4 +120,4 @@ TEST(LevelSetNoise, AutomaticWeightIsNearlyTheBest_long)
   }
 }
 
-} // namespace
+} // namespace test_level_set_noise

@@ -13,7 +13,7 @@
 #include <cmath>
 #include <string>
 
-namespace {
+namespace test_level_set_robust {
 
 using namespace pcl_uvol;
 using uvol_test::Evolution;
@@ -395,4 +395,4 @@ TEST(LevelSetRobust, ShapesAreStretchedWithTheSamples)
   EXPECT_DOUBLE_EQ(1.0, sphere.computeDistance(Eigen::Vector3d(1, 0, 0), scale));
 }
 
-} // namespace
+} // namespace test_level_set_robust

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-namespace {
+namespace test_mu_choice {
 
 using namespace pcl_uvol;
 using Vector3d = Eigen::Vector3d;
@@ -103,4 +103,4 @@ TEST(MuChoice, LittleIsLeftOfTheNoiseOfAPlane)
                 .of_surface);
 }
 
-} // namespace
+} // namespace test_mu_choice

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace {
+namespace test_robust_values {
 
 using namespace pcl_uvol;
 
@@ -101,4 +101,4 @@ TEST(RobustValues, LoseTheirSpikes)
     }
 }
 
-} // namespace
+} // namespace test_robust_values

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <vector>
 
-namespace {
+namespace test_value_scale {
 
 using namespace pcl_uvol;
 
@@ -98,4 +98,4 @@ TEST(ValueScale, LogarithmsAreTakenOfGrowthAlone)
   }));
 }
 
-} // namespace
+} // namespace test_value_scale

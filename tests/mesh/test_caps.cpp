@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace {
+namespace test_caps {
 
 using namespace pcl_uvol;
 using namespace pcl_uvol::detail;
@@ -259,4 +259,4 @@ TEST(WayDown, StaysWithinSides)
   EXPECT_EQ(Eigen::Vector3d(0.0, 2.0, 0.0), keepWithin(1 + 32, {1.0, 2.0, 3.0}));
 }
 
-} // namespace
+} // namespace test_caps

@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-namespace {
+namespace test_curved_triangle {
 
 using namespace pcl_uvol;
 
@@ -82,4 +82,4 @@ TEST(CurvedTriangle, IntegralsMoveWithTheCentre)
       0.0, (moved.moment - integrals.moment - integrals.volume * offset).norm(), 1e-14);
 }
 
-} // namespace
+} // namespace test_curved_triangle

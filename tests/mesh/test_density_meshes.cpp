@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-namespace {
+namespace test_density_meshes {
 
 using namespace pcl_uvol;
 using namespace uvol_test;
@@ -81,4 +81,4 @@ TEST(DensityMeshes, AreSpheresInAnyUnitAndOfEitherSign)
                0.01);
 }
 
-} // namespace
+} // namespace test_density_meshes

@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace test_dual_surface {
 
 using namespace pcl_uvol;
 using detail::CellCache;
@@ -321,4 +321,4 @@ TEST(DualSurface, LooksFromAboveToBelow)
   }
 }
 
-} // namespace
+} // namespace test_dual_surface

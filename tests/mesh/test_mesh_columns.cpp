@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace {
+namespace test_mesh_columns {
 
 using namespace pcl_uvol;
 using namespace uvol_test;
@@ -46,4 +46,4 @@ TEST(MeshColumns, TellInsideFromOutsideOnGridPlanesToo)
       }
 }
 
-} // namespace
+} // namespace test_mesh_columns

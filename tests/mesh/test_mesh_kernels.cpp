@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace test_mesh_kernels {
 
 using namespace pcl_uvol;
 using namespace pcl_uvol::detail;
@@ -403,4 +403,4 @@ TEST(Remesh, KeepsCreasesApart)
   EXPECT_NEAR(9.0 * height, volume, 1e-12);
 }
 
-} // namespace
+} // namespace test_mesh_kernels

@@ -13,7 +13,7 @@
 #include <queue>
 #include <random>
 
-namespace {
+namespace test_mesh_topology {
 
 using namespace pcl_uvol;
 using namespace uvol_test;
@@ -222,4 +222,4 @@ TEST(MeshTopology, IsThatOfManyTrilinearFields_long)
   std::cout << result.agreed << " of " << result.compared << " agree\n";
 }
 
-} // namespace
+} // namespace test_mesh_topology

@@ -15,7 +15,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace {
+namespace test_point_measures {
 
 using namespace pcl_uvol;
 using namespace uvol_test;
@@ -327,4 +327,4 @@ TEST(DisjointSets, TheLowestItemStandsForItsSet)
   EXPECT_EQ(0u, sets.find(0));
 }
 
-} // namespace
+} // namespace test_point_measures

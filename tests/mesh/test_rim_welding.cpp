@@ -10,7 +10,7 @@
 #include <set>
 #include <vector>
 
-namespace {
+namespace test_rim_welding {
 
 using namespace pcl_uvol;
 using detail::MatchedRims;
@@ -190,4 +190,4 @@ TEST(RimWelding, CornersAreImagesOfCorners)
     EXPECT_NE(strips.highIndex(2), image);
 }
 
-} // namespace
+} // namespace test_rim_welding

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <random>
 
-namespace {
+namespace test_self_intersections {
 
 using namespace pcl_uvol;
 using namespace pcl_uvol::detail;
@@ -293,4 +293,4 @@ TEST(SelfIntersections, HaveABoundWhereAllLieOnOneAnother)
                InvalidArgument);
 }
 
-} // namespace
+} // namespace test_self_intersections

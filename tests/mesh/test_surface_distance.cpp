@@ -12,7 +12,7 @@
 #include <limits>
 #include <random>
 
-namespace {
+namespace test_surface_distance {
 
 using namespace pcl_uvol;
 using namespace pcl_uvol::detail;
@@ -194,4 +194,4 @@ TEST(SurfaceDistance, RefusesWhatIsNoSurface)
       InvalidArgument);
 }
 
-} // namespace
+} // namespace test_surface_distance

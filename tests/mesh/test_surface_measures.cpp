@@ -14,7 +14,7 @@
 #include <limits>
 #include <random>
 
-namespace {
+namespace test_surface_measures {
 
 using namespace pcl_uvol;
 using namespace uvol_test;
@@ -574,4 +574,4 @@ TEST(SurfaceMeasures, SamplesAndSurfaceMayHaveOtherOrigins)
   EXPECT_EQ(2, measures.compute().isovalues[0].samples);
 }
 
-} // namespace
+} // namespace test_surface_measures

@@ -12,7 +12,7 @@
 #include <numeric>
 #include <random>
 
-namespace {
+namespace test_surface_mesh {
 
 using namespace pcl_uvol;
 using namespace uvol_test;
@@ -359,4 +359,4 @@ TEST(SurfaceMesh, RefusesWhatItCannotDo)
   EXPECT_EQ(1u, none.report.warnings.size());
 }
 
-} // namespace
+} // namespace test_surface_mesh

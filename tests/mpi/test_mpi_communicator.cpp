@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace {
+namespace test_mpi_communicator {
 
 class MpiProcesses : public testing::Test {
 protected:
@@ -59,4 +59,4 @@ TEST_F(MpiProcesses, DoNotWaitForOneThatFailed)
   expectSuccess(3, "1000 1 group"); // alone in it
 }
 
-} // namespace
+} // namespace test_mpi_communicator

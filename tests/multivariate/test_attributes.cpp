@@ -13,7 +13,7 @@
 #include <numeric>
 #include <tuple>
 
-namespace {
+namespace test_attributes {
 
 using namespace uvol_test;
 using pcl_uvol::AttributeTable;
@@ -205,4 +205,4 @@ TEST(Attributes, ThatCannotBeReadThrow)
   EXPECT_THROW(read(missing, {"x", "z"}, true), InvalidArgument);
 }
 
-} // namespace
+} // namespace test_attributes

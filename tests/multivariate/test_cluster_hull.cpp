@@ -13,7 +13,7 @@
 #include <set>
 #include <utility>
 
-namespace {
+namespace test_cluster_hull {
 
 using pcl_uvol::ClusterHull;
 using pcl_uvol::InvalidArgument;
@@ -446,4 +446,4 @@ TEST(ClusterHull, RefusesVerticesWithoutRegion)
   }
 }
 
-} // namespace
+} // namespace test_cluster_hull

@@ -13,7 +13,7 @@
 #include <random>
 #include <vector>
 
-namespace {
+namespace test_cluster_moments {
 
 using namespace pcl_uvol;
 using Eigen::Index;
@@ -181,4 +181,4 @@ TEST(ClusterSeparation, AscentEndsAtTheBestSubspace)
   EXPECT_NEAR(best, separation.smallestRatio(separation.discriminants()), 1e-9 * best);
 }
 
-} // namespace
+} // namespace test_cluster_moments

@@ -16,7 +16,7 @@
 #include <limits>
 #include <numeric>
 
-namespace {
+namespace test_cluster_stages {
 
 using pcl_uvol::ClusterMembership;
 using pcl_uvol::InvalidArgument;
@@ -203,4 +203,4 @@ TEST(VoronoiDiagram, RefusesWhatItCannotUse)
   EXPECT_THROW(diagram.compute(), InvalidArgument);
 }
 
-} // namespace
+} // namespace test_cluster_stages

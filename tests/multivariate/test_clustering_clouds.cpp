@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace {
+namespace test_clustering_clouds {
 
 using namespace uvol_test;
 using pcl_uvol::InvalidArgument;
@@ -122,4 +122,4 @@ TEST(DensityClusteringOfClouds, BadInputThrowsAndLeavesTheLabels)
   EXPECT_EQ(labels, std::vector<int>{7});
 }
 
-} // namespace
+} // namespace test_clustering_clouds

@@ -14,7 +14,7 @@
 #include <numeric>
 #include <set>
 
-namespace {
+namespace test_density_clustering {
 
 using namespace uvol_test;
 using pcl_uvol::Clustering;
@@ -393,4 +393,4 @@ TEST(DensityClustering, BadParametersThrow)
   EXPECT_THROW(cluster(1, {}), InvalidArgument);
 }
 
-} // namespace
+} // namespace test_density_clustering

@@ -11,7 +11,7 @@
 #include <limits>
 #include <numeric>
 
-namespace {
+namespace test_membership {
 
 using namespace pcl_uvol;
 
@@ -214,4 +214,4 @@ TEST(SmoothMembership, BadInputIsRefused)
   }
 }
 
-} // namespace
+} // namespace test_membership

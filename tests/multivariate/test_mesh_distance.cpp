@@ -11,7 +11,7 @@
 #include <cmath>
 #include <limits>
 
-namespace {
+namespace test_mesh_distance {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
@@ -320,4 +320,4 @@ TEST(MeshDistance, DoesNotDependOnThreads)
     EXPECT_EQ(first, distancesTo(shape, mesh, threads)) << threads;
 }
 
-} // namespace
+} // namespace test_mesh_distance

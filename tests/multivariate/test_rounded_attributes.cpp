@@ -11,7 +11,7 @@
 #include <cmath>
 #include <functional>
 
-namespace {
+namespace test_rounded_attributes {
 
 using namespace uvol_test;
 using pcl_uvol::normalAt;
@@ -235,4 +235,4 @@ TEST(RoundedAttributes, NumbersOfManyGroupsAreNone)
   EXPECT_TRUE(findWarnings(report).empty());
 }
 
-} // namespace
+} // namespace test_rounded_attributes

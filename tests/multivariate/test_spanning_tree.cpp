@@ -14,7 +14,7 @@
 #include <numeric>
 #include <tuple>
 
-namespace {
+namespace test_spanning_tree {
 
 using namespace uvol_test;
 using pcl_uvol::InvalidArgument;
@@ -299,4 +299,4 @@ TEST(LongestSpanningEdge, IsTheLargestGap)
   EXPECT_EQ(pcl_uvol::longestSpanningEdge({{{1, 2, 3}}}, 0, report), 0.0);
 }
 
-} // namespace
+} // namespace test_spanning_tree

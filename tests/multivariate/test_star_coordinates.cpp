@@ -15,7 +15,7 @@
 #include <limits>
 #include <numeric>
 
-namespace {
+namespace test_star_coordinates {
 
 using namespace pcl_uvol;
 using namespace uvol_test;
@@ -263,4 +263,4 @@ TEST(StarCoordinates, OrderOfRowsDoesNotMatter)
   }
 }
 
-} // namespace
+} // namespace test_star_coordinates

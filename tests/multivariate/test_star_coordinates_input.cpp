@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-namespace {
+namespace test_star_coordinates_input {
 
 using namespace pcl_uvol;
 using namespace uvol_test;
@@ -131,4 +131,4 @@ TEST(StarCoordinatesInput, BadInputIsRefused)
   }
 }
 
-} // namespace
+} // namespace test_star_coordinates_input

@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-namespace {
+namespace test_anisotropy {
 
 TEST(EqualizingScale, StretchesTheNarrowAxesAndIgnoresStrays)
 {
@@ -57,4 +57,4 @@ TEST(EqualizingScale, NeedsAFinitePoint)
                pcl_uvol::InvalidArgument);
 }
 
-} // namespace
+} // namespace test_anisotropy

@@ -6,7 +6,7 @@
 
 #include <limits>
 
-namespace {
+namespace test_ball {
 
 using pcl_uvol::Ball;
 
@@ -58,4 +58,4 @@ TEST(Balls, AreConcentricIfOnlyTheirSizesDiffer)
   EXPECT_FALSE(ball.isConcentric(makeLong(1.0f, 2.0f)));
 }
 
-} // namespace
+} // namespace test_ball

@@ -10,7 +10,7 @@
 #include <limits>
 #include <vector>
 
-namespace {
+namespace test_cell_kernel {
 
 using namespace pcl_uvol;
 
@@ -169,4 +169,4 @@ TEST(CellKernel, FindsTheNearestPoint)
   }
 }
 
-} // namespace
+} // namespace test_cell_kernel

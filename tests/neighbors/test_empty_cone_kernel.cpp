@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-namespace {
+namespace test_empty_cone_kernel {
 
 using namespace pcl_uvol;
 using Eigen::Vector3d;
@@ -85,4 +85,4 @@ TEST(EmptyConeKernel, FindsTheDirectionFarthestFromAll)
   }
 }
 
-} // namespace
+} // namespace test_empty_cone_kernel

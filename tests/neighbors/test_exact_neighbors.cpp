@@ -12,7 +12,7 @@
 #include <cmath>
 #include <set>
 
-namespace {
+namespace test_exact_neighbors {
 
 using Cloud = pcl::PointCloud<pcl::PointXYZI>;
 using Edges = std::set<std::pair<std::uint32_t, std::uint32_t>>;
@@ -198,4 +198,4 @@ TEST(ExactNeighbors, GiveAnIsosurfaceAnIsopointPerDelaunayEdgeAcross)
   EXPECT_LT(isopoints.size(), 2 * all / 3);
 }
 
-} // namespace
+} // namespace test_exact_neighbors

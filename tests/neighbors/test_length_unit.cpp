@@ -11,7 +11,7 @@
 #include <limits>
 #include <numeric>
 
-namespace {
+namespace test_length_unit {
 
 using pcl_uvol::LengthUnit;
 using pcl_uvol::MagnitudeCounts;
@@ -136,4 +136,4 @@ TEST(LengthUnit, SamplesAreTheSameInAnyUnit)
   }
 }
 
-} // namespace
+} // namespace test_length_unit

@@ -8,7 +8,7 @@
 
 #include <numeric>
 
-namespace {
+namespace test_local_metric {
 
 using pcl_uvol::LocalMetricFinder;
 using pcl_uvol::Position;
@@ -117,4 +117,4 @@ TEST(LocalMetric, IsANumberWhereSamplesAreNearAndFar)
     }
 }
 
-} // namespace
+} // namespace test_local_metric

@@ -12,7 +12,7 @@
 #include <string>
 #include <utility>
 
-namespace {
+namespace test_metric_finder {
 
 using pcl_uvol::Ball;
 using pcl_uvol::MetricFinder;
@@ -209,4 +209,4 @@ TEST(MetricFinder, TellsWhetherABallIsEmpty)
     }
 }
 
-} // namespace
+} // namespace test_metric_finder

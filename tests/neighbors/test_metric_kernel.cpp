@@ -11,7 +11,7 @@
 #include <random>
 #include <vector>
 
-namespace {
+namespace test_metric_kernel {
 
 using namespace pcl_uvol;
 
@@ -142,7 +142,7 @@ TEST(MetricKernel, AddsTheLinesThatNoNearerOneHides)
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
       return sq_lengths[a] < sq_lengths[b];
     });
-    Moments expected{};
+    MetricMoments expected{};
     std::vector<std::size_t> lines;
     for (const std::size_t j : order) {
       const bool is_hidden =
@@ -164,7 +164,7 @@ TEST(MetricKernel, AddsTheLinesThatNoNearerOneHides)
     ASSERT_GE(lines.size(), 2u);
     uvol_test::forLevels(kernels, [&](const MetricKernels* kernel) {
       std::vector<float> left = sq_lengths;
-      Moments found{};
+      MetricMoments found{};
       kernel->addLines(
           x[0].data(), x[1].data(), x[2].data(), left.data(), count, sq_cosine, found);
       for (int i = 0; i < 6; ++i) {
@@ -175,4 +175,4 @@ TEST(MetricKernel, AddsTheLinesThatNoNearerOneHides)
   }
 }
 
-} // namespace
+} // namespace test_metric_kernel

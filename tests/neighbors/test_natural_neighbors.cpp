@@ -19,7 +19,7 @@
 #include <limits>
 #include <random>
 
-namespace {
+namespace test_natural_neighbors {
 
 using pcl_uvol::AngleCriterion;
 using pcl_uvol::Position;
@@ -287,4 +287,4 @@ TEST(AngleFilter, KeepsAxesAndDiagonalsOfAGrid)
   }
 }
 
-} // namespace
+} // namespace test_natural_neighbors

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <limits>
 
-namespace {
+namespace test_nearest_finder {
 
 using pcl_uvol::NearestFinder;
 using pcl_uvol::Position;
@@ -243,4 +243,4 @@ TEST_P(NearestFinderOnEveryShape, GapsThatAreFoundAreGaps)
   EXPECT_EQ(samples->size() >= 20, finder.findGap(far, 0, last, 0.7f) > 0.0f);
 }
 
-} // namespace
+} // namespace test_nearest_finder

@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-namespace {
+namespace test_nearest_kernel {
 
 using namespace pcl_uvol;
 
@@ -145,4 +145,4 @@ TEST(NearestKernel, CountsAndKeepsValuesUpToALimit)
   }
 }
 
-} // namespace
+} // namespace test_nearest_kernel

@@ -9,7 +9,7 @@
 
 #include <algorithm>
 
-namespace {
+namespace test_nearest_neighbors {
 
 using pcl_uvol::SampleSet;
 using uvol_test::buildSamples;
@@ -79,4 +79,4 @@ TEST(NearestNeighbors, OnePointHasNoneAndZeroIsRefused)
   EXPECT_THROW(nearest(*samples, 0, 0), pcl_uvol::InvalidArgument);
 }
 
-} // namespace
+} // namespace test_nearest_neighbors

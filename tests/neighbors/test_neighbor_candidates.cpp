@@ -12,7 +12,7 @@
 #include <cstdlib>
 #include <numeric>
 
-namespace {
+namespace test_neighbor_candidates {
 
 using pcl_uvol::AngleCriterion;
 using pcl_uvol::GridCell;
@@ -205,4 +205,4 @@ TEST(VoronoiCandidates, RefuseCrowdsAndTellTheNumber)
   }
 }
 
-} // namespace
+} // namespace test_neighbor_candidates

@@ -10,7 +10,7 @@
 #include <numeric>
 #include <vector>
 
-namespace {
+namespace test_sampling {
 
 using namespace pcl_uvol;
 
@@ -165,4 +165,4 @@ TEST(Sampling, DoesNotDependOnThreadsOrUnits)
   }
 }
 
-} // namespace
+} // namespace test_sampling

@@ -15,7 +15,7 @@
 #include <map>
 #include <numeric>
 
-namespace {
+namespace test_simple_cell {
 
 using namespace pcl_uvol;
 using namespace pcl_uvol::detail;
@@ -510,4 +510,4 @@ TEST(DelaunayCavity, NoticesWrongCells)
   EXPECT_FALSE(cavity.measure(cell, ratios.data(), volumes.data()));
 }
 
-} // namespace
+} // namespace test_simple_cell

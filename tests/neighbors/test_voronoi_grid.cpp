@@ -15,7 +15,7 @@
 #include <set>
 #include <utility>
 
-namespace {
+namespace test_voronoi_grid {
 
 using pcl_uvol::FeatureTransform;
 using pcl_uvol::GridCell;
@@ -316,4 +316,4 @@ TEST(VoronoiGrid, RefusesWhatDoesNotFit)
                InvalidArgument);
 }
 
-} // namespace
+} // namespace test_voronoi_grid

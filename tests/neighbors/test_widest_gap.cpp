@@ -9,7 +9,7 @@
 #include <cmath>
 #include <vector>
 
-namespace {
+namespace test_widest_gap {
 
 using pcl_uvol::Gap;
 using pcl_uvol::uniformAt;
@@ -65,4 +65,4 @@ TEST(WidestGap, IsTheFirstOfThoseThatGoOnAlike)
   EXPECT_EQ(1.0, findCut({0.0, 0.0, 1.0, 2.0, 3.0}, 4.0, 2));
 }
 
-} // namespace
+} // namespace test_widest_gap

@@ -56,7 +56,7 @@ makeSamplesAt(const std::vector<double>& xyz, const std::vector<double>& values)
 /** \brief Random places of which float holds sums and differences exactly, moved and
  * wrapped into the box. The field is that of the places before. */
 inline std::shared_ptr<pcl_uvol::Dataset>
-makeSamples(std::size_t count, const Field& field, const Place& shift = {})
+makePeriodicSamples(std::size_t count, const Field& field, const Place& shift = {})
 {
   std::vector<double> xyz, values;
   for (std::uint64_t i = 0; i < count; ++i) {
@@ -73,7 +73,7 @@ makeSamples(std::size_t count, const Field& field, const Place& shift = {})
 }
 
 inline pcl_uvol::IsosurfacePipelineParameters
-makeParameters(double isovalue)
+makePeriodicParameters(double isovalue)
 {
   pcl_uvol::IsosurfacePipelineParameters parameters;
   parameters.isosurface.field = "f";

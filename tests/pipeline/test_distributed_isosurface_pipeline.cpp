@@ -16,7 +16,7 @@
 #include <set>
 #include <string>
 
-namespace {
+namespace test_distributed_isosurface_pipeline {
 
 using pcl_uvol::Dataset;
 using pcl_uvol::DistributedIsosurfacePipeline;
@@ -186,4 +186,4 @@ TEST(DistributedIsosurfacePipeline, RefusesWhatNeedsAllSamples)
   });
 }
 
-} // namespace
+} // namespace test_distributed_isosurface_pipeline

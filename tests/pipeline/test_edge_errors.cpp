@@ -10,7 +10,7 @@
 #include <memory>
 #include <numeric>
 
-namespace {
+namespace test_edge_errors {
 
 using namespace pcl_uvol;
 using Eigen::Vector3d;
@@ -140,4 +140,4 @@ TEST(EdgeErrors, AreNotToldWhereTheyDoNotShow)
   EXPECT_TRUE(std::isinf(along.findError(17)));
 }
 
-} // namespace
+} // namespace test_edge_errors

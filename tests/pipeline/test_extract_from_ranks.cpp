@@ -15,7 +15,7 @@
 #include <mutex>
 #include <tuple>
 
-namespace {
+namespace test_extract_from_ranks {
 
 using pcl_uvol::AngleCriterion;
 using pcl_uvol::GlobalIsopoint;
@@ -317,4 +317,4 @@ TEST(RankExtraction, RefusesNothingAtAll)
   EXPECT_THROW(Together(Cloud(), settings, 3, in_turn(3)), pcl_uvol::InvalidArgument);
 }
 
-} // namespace
+} // namespace test_extract_from_ranks

@@ -28,7 +28,7 @@
 #include <thread>
 #include <unistd.h>
 
-namespace {
+namespace test_extract_out_of_core {
 
 using pcl_uvol::Dataset;
 using pcl_uvol::Interpolation;
@@ -372,4 +372,4 @@ TEST_F(OutOfCore, HasNothingToSayOfNothing)
   EXPECT_THROW(extract(settings), pcl_uvol::InvalidArgument);
 }
 
-} // namespace
+} // namespace test_extract_out_of_core

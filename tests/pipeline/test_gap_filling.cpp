@@ -20,7 +20,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace test_gap_filling {
 
 using namespace pcl_uvol;
 
@@ -635,4 +635,4 @@ TEST(GapFilling, RefusesWhatItCannotFill)
   EXPECT_THROW(uvol_test::runPipeline(makeProfiles(12), parameters), InvalidArgument);
 }
 
-} // namespace
+} // namespace test_gap_filling

@@ -12,7 +12,7 @@
 #include <malloc.h>
 #include <utility>
 
-namespace {
+namespace test_interrupted_stages {
 
 using pcl_uvol::IsosurfacePipeline;
 using pcl_uvol::IsosurfacePipelineParameters;
@@ -128,4 +128,4 @@ TEST(ManyExtractions, LeaveMemoryWhereItWas)
   EXPECT_LT(used(), before + room);
 }
 
-} // namespace
+} // namespace test_interrupted_stages

@@ -31,7 +31,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace test_interrupted_work {
 
 using namespace pcl_uvol;
 using uvol_test::interruptEveryStep;
@@ -359,4 +359,4 @@ TEST(InterruptedWork, Memberships)
       1);
 }
 
-} // namespace
+} // namespace test_interrupted_work

@@ -13,7 +13,7 @@
 #include <memory>
 #include <vector>
 
-namespace {
+namespace test_isopoint_choice {
 
 using namespace pcl_uvol;
 
@@ -361,4 +361,4 @@ TEST(IsopointChoice, IsTheSameInOtherUnits)
   }
 }
 
-} // namespace
+} // namespace test_isopoint_choice

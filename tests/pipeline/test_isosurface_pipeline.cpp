@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace test_isosurface_pipeline {
 
 using pcl_uvol::Dataset;
 using pcl_uvol::Interpolation;
@@ -93,8 +93,6 @@ TEST(IsosurfacePipeline, OrientsAsItIsTold)
   }
 }
 
-namespace {
-
 /** Isopoints whose error is no more than half of their edge. */
 std::size_t
 countKnown(const IsosurfaceResult& result)
@@ -106,8 +104,6 @@ countKnown(const IsosurfaceResult& result)
     known += errors[i] <= 0.5f * edges[i];
   return known;
 }
-
-} // namespace
 
 TEST(IsosurfacePipeline, LeavesOutWhatIsKnownNoBetterThanByItsEdge)
 {
@@ -407,4 +403,4 @@ TEST(IsosurfacePipeline, IsEndedByItsProgress)
             pipeline.run().surface.cloud.data);
 }
 
-} // namespace
+} // namespace test_isosurface_pipeline

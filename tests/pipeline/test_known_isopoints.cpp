@@ -13,7 +13,7 @@
 #include <memory>
 #include <string>
 
-namespace {
+namespace test_known_isopoints {
 
 using namespace pcl_uvol;
 
@@ -198,4 +198,4 @@ INSTANTIATE_TEST_SUITE_P(,
                                            Outliers{true, 1000.0f, 30},
                                            Outliers{true, 9.0f, 30}));
 
-} // namespace
+} // namespace test_known_isopoints

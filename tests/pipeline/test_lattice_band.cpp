@@ -9,7 +9,7 @@
 #include <set>
 #include <vector>
 
-namespace {
+namespace test_lattice_band {
 
 using pcl_uvol::detail::LatticeBand;
 using pcl_uvol::detail::LatticeNode;
@@ -111,4 +111,4 @@ TEST(LatticeBand, FindsNothingFarFromTheSurface)
   EXPECT_TRUE(band.listNodes().empty());
 }
 
-} // namespace
+} // namespace test_lattice_band

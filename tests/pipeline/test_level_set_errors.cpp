@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace test_level_set_errors {
 
 using namespace pcl_uvol;
 using Surface = pcl::PointCloud<PointIso>;
@@ -163,4 +163,4 @@ TEST(LevelSetErrors, ASurfaceThatVanishedIsToldByItsOwnIsovalue)
   }
 }
 
-} // namespace
+} // namespace test_level_set_errors

@@ -18,7 +18,7 @@
 #include <map>
 #include <numeric>
 
-namespace {
+namespace test_periodic_box {
 
 using namespace pcl_uvol;
 using namespace uvol_test;
@@ -65,11 +65,11 @@ areaOf(const IsosurfaceResult& result)
 TEST(PeriodicBox, ShiftingTheSamplesShiftsTheSurface)
 {
   const auto reference =
-      runPipeline(makeSamples(4000, gyroid), makeParameters(0.25), 1);
+      runPipeline(makePeriodicSamples(4000, gyroid), makePeriodicParameters(0.25), 1);
   ASSERT_GT(reference.surface.cloud.width, 1000u);
   for (const Place& shift : {Place{{1.25, 3.5, 7.0}}, Place{{-2.0, 0.0, 0.125}}}) {
-    const auto moved =
-        runPipeline(makeSamples(4000, gyroid, shift), makeParameters(0.25), 2);
+    const auto moved = runPipeline(
+        makePeriodicSamples(4000, gyroid, shift), makePeriodicParameters(0.25), 2);
     ASSERT_EQ(reference.surface.cloud.width, moved.surface.cloud.width);
     const std::size_t step = moved.surface.cloud.point_step;
     for (std::size_t i = 0; i < moved.surface.cloud.width; ++i) {
@@ -92,9 +92,9 @@ TEST(PeriodicBox, ShiftingTheSamplesShiftsTheSurface)
 
 TEST(PeriodicBox, SurfacesAreAsGoodAtTheFacesAsElsewhere)
 {
-  const auto samples = makeSamples(8000, gyroid); // of a spacing of 0.4
+  const auto samples = makePeriodicSamples(8000, gyroid); // of a spacing of 0.4
   for (const bool smooth : {false, true}) {
-    IsosurfacePipelineParameters parameters = makeParameters(0.25);
+    IsosurfacePipelineParameters parameters = makePeriodicParameters(0.25);
     parameters.smooth = smooth;
     const auto rms = [&](const IsosurfaceResult& result, bool at_faces) {
       double sum = 0.0;
@@ -127,8 +127,8 @@ TEST(PeriodicBox, SurfacesAreAsGoodAtTheFacesAsElsewhere)
 TEST(PeriodicBox, ASphereOnACornerIsWhole)
 {
   constexpr double radius = 2.0;
-  const auto samples = makeSamples(8000, distanceToCorner);
-  IsosurfacePipelineParameters parameters = makeParameters(radius);
+  const auto samples = makePeriodicSamples(8000, distanceToCorner);
+  IsosurfacePipelineParameters parameters = makePeriodicParameters(radius);
   parameters.isosurface.outside = Outside::Higher;
   const auto points = runPipeline(samples, parameters);
   const CloudView view = viewOf(points.surface.cloud);
@@ -158,9 +158,9 @@ TEST(PeriodicBox, ASphereOnACornerIsWhole)
 
 TEST(PeriodicBox, MeshesEndInTheFaces)
 {
-  IsosurfacePipelineParameters parameters = makeParameters(0.25);
+  IsosurfacePipelineParameters parameters = makePeriodicParameters(0.25);
   parameters.mesh.emplace();
-  const auto mesh = runPipeline(makeSamples(6000, gyroid), parameters);
+  const auto mesh = runPipeline(makePeriodicSamples(6000, gyroid), parameters);
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;
   for (const Triangle& triangle : mesh.triangles)
     for (std::size_t i = 0; i < 3; ++i)
@@ -177,7 +177,7 @@ TEST(PeriodicBox, MeshesEndInTheFaces)
   EXPECT_GT(rim_edges, 100u);
   // The same surface from a box that is put elsewhere.
   const auto moved =
-      runPipeline(makeSamples(6000, gyroid, {{1.5, 2.5, 4.0}}), parameters);
+      runPipeline(makePeriodicSamples(6000, gyroid, {{1.5, 2.5, 4.0}}), parameters);
   EXPECT_NEAR(areaOf(mesh), areaOf(moved), 0.01 * areaOf(mesh));
   EXPECT_EQ(mesh.edges.size(), mesh.surface.cloud.width);
   EXPECT_EQ(mesh.isopoints, std::vector<std::size_t>{mesh.edges.size()});
@@ -245,8 +245,8 @@ TEST(PeriodicBox, WeldedMeshesCloseAcrossTheFaces)
   for (const Surface& surface : surfaces)
     for (const Place& shift :
          {Place{}, Place{{1.5, 2.5, 4.0}}, Place{{6.7, 0.25, 3.2}}}) {
-      const auto samples = makeSamples(5000, surface.field, shift);
-      const auto result = runWelded(samples, makeParameters(surface.isovalue));
+      const auto samples = makePeriodicSamples(5000, surface.field, shift);
+      const auto result = runWelded(samples, makePeriodicParameters(surface.isovalue));
       SCOPED_TRACE(testing::Message() << surface.isovalue << " moved by " << shift[0]);
       ASSERT_EQ(surface.genus.size(), result.pieces.size());
       for (std::size_t i = 0; i < surface.genus.size(); ++i) {
@@ -261,8 +261,8 @@ TEST(PeriodicBox, WeldedMeshesCloseAcrossTheFaces)
 
 TEST(PeriodicBox, WeldingKeepsTheSurface)
 {
-  const auto samples = makeSamples(8000, gyroid);
-  IsosurfacePipelineParameters parameters = makeParameters(0.1);
+  const auto samples = makePeriodicSamples(8000, gyroid);
+  IsosurfacePipelineParameters parameters = makePeriodicParameters(0.1);
   const auto welded = runWelded(samples, parameters);
   parameters.mesh.emplace();
   const auto cut = runPipeline(samples, parameters);
@@ -274,18 +274,18 @@ TEST(PeriodicBox, WeldingKeepsTheSurface)
 
 TEST(PeriodicBox, WeldedMeshesAreTheSameOnAnyThreads)
 {
-  const auto samples = makeSamples(6000, gyroid);
-  const auto one = runWelded(samples, makeParameters(0.1), 1),
-             three = runWelded(samples, makeParameters(0.1), 3);
+  const auto samples = makePeriodicSamples(6000, gyroid);
+  const auto one = runWelded(samples, makePeriodicParameters(0.1), 1),
+             three = runWelded(samples, makePeriodicParameters(0.1), 3);
   EXPECT_EQ(one.surface.cloud.data, three.surface.cloud.data);
   EXPECT_EQ(one.triangles, three.triangles);
 }
 
 TEST(PeriodicBox, OfSeveralIsovaluesAndAlongOneAxisMeshesAreWelded)
 {
-  IsosurfacePipelineParameters parameters = makeParameters(-0.2);
+  IsosurfacePipelineParameters parameters = makePeriodicParameters(-0.2);
   parameters.isosurface.isovalues.push_back(-0.25); // a tenth of a spacing beside it
-  const auto both = runWelded(makeSamples(8000, gyroid), parameters);
+  const auto both = runWelded(makePeriodicSamples(8000, gyroid), parameters);
   ASSERT_EQ(2u, both.pieces.size());
   for (const SurfacePiece& piece : both.pieces) {
     EXPECT_EQ(5u, piece.genus);
@@ -295,10 +295,10 @@ TEST(PeriodicBox, OfSeveralIsovaluesAndAlongOneAxisMeshesAreWelded)
   const auto tube = [](const Place& p) {
     return std::hypot(p[1] - 4.0, p[2] - 4.0) - 0.3 * std::sin(2.0 * pi * p[0] / side);
   };
-  parameters = makeParameters(2.0);
+  parameters = makePeriodicParameters(2.0);
   parameters.isosurface.outside = Outside::Higher;
   parameters.periodic << side, 0.0, 0.0;
-  const auto torus = runWelded(makeSamples(8000, tube), parameters);
+  const auto torus = runWelded(makePeriodicSamples(8000, tube), parameters);
   ASSERT_EQ(1u, torus.pieces.size());
   EXPECT_EQ(1u, torus.pieces[0].genus);
   EXPECT_EQ(0u, torus.pieces[0].rims);
@@ -308,11 +308,11 @@ TEST(PeriodicBox, OfSeveralIsovaluesAndAlongOneAxisMeshesAreWelded)
 TEST(PeriodicBox, WhatCannotBeWeldedIsToldOf)
 {
   // Noise of the size of the surface itself: rims differ by more than samples do.
-  auto samples = makeSamples(3000, [](const Place& p) {
+  auto samples = makePeriodicSamples(3000, [](const Place& p) {
     return gyroid(p) +
            normalAt(3, static_cast<std::uint64_t>(1e6 * (p[0] + 11 * p[1])), 0);
   });
-  const auto result = runWelded(samples, makeParameters(0.0));
+  const auto result = runWelded(samples, makePeriodicParameters(0.0));
   std::size_t rims = 0;
   for (const SurfacePiece& piece : result.pieces)
     rims += piece.rims;
@@ -325,7 +325,7 @@ TEST(PeriodicBox, WhatCannotBeWeldedIsToldOf)
   EXPECT_TRUE(is_told);
   checkImages(result, Eigen::Array3d::Constant(side));
 
-  IsosurfacePipelineParameters parameters = makeParameters(0.0);
+  IsosurfacePipelineParameters parameters = makePeriodicParameters(0.0);
   parameters.periodic_mesh = PeriodicMesh::Weld;
   EXPECT_THROW(runPipeline(samples, parameters), InvalidArgument);
   parameters.mesh.emplace();
@@ -359,7 +359,7 @@ findNearest(const Dataset& samples, std::size_t i, const Place& sides, std::size
 
 TEST(PeriodicBox, ImagesHoldAllNeighbors)
 {
-  const auto samples = makeSamples(300, gyroid);
+  const auto samples = makePeriodicSamples(300, gyroid);
   std::vector<std::uint32_t> use(300);
   std::iota(use.begin(), use.end(), 0u);
   Report report;
@@ -391,7 +391,7 @@ TEST(PeriodicBox, ImagesHoldAllNeighbors)
 
 TEST(PeriodicBox, CountsAreThoseOfTheSamples)
 {
-  const auto samples = makeSamples(3000, gyroid);
+  const auto samples = makePeriodicSamples(3000, gyroid);
   const std::size_t step = samples->cloud.point_step;
   // One sample in the corner that comes five hundred times, as its seven images do.
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -399,7 +399,7 @@ TEST(PeriodicBox, CountsAreThoseOfTheSamples)
   resizePoints(samples->cloud, 3500);
   for (std::size_t i = 3000; i < 3500; ++i)
     std::copy_n(&samples->cloud.data[0], step, &samples->cloud.data[i * step]);
-  const auto result = runPipeline(samples, makeParameters(0.1));
+  const auto result = runPipeline(samples, makePeriodicParameters(0.1));
   EXPECT_EQ(3000u, result.report.getCount("samples"));
   EXPECT_EQ(500u, result.report.getCount("duplicates"));
 }
@@ -408,7 +408,7 @@ TEST(PeriodicBox, LiesWhereTheSamplesDo)
 {
   Report report;
   const auto low_of = [&](double move, double room) {
-    auto samples = makeSamples(200, gyroid);
+    auto samples = makePeriodicSamples(200, gyroid);
     for (std::size_t i = 0; i < 200; ++i)
       putCoordinate(placeOf(*samples, i)[0] * room + move,
                     0,
@@ -430,15 +430,15 @@ TEST(PeriodicBox, LiesWhereTheSamplesDo)
 
 TEST(PeriodicBox, IsRefusedWhereItIsNone)
 {
-  const auto samples = makeSamples(200, gyroid);
+  const auto samples = makePeriodicSamples(200, gyroid);
   for (const double bad : {-1.0,
                            std::numeric_limits<double>::infinity(),
                            std::numeric_limits<double>::quiet_NaN()}) {
-    IsosurfacePipelineParameters parameters = makeParameters(0.0);
+    IsosurfacePipelineParameters parameters = makePeriodicParameters(0.0);
     parameters.periodic[1] = bad;
     EXPECT_THROW(runPipeline(samples, parameters), InvalidArgument);
   }
-  IsosurfacePipelineParameters parameters = makeParameters(0.0);
+  IsosurfacePipelineParameters parameters = makePeriodicParameters(0.0);
   parameters.validation.folds = 3;
   EXPECT_THROW(runPipeline(samples, parameters), InvalidArgument);
 }
@@ -472,4 +472,4 @@ TEST(PlaneCut, TakesVerticesInThePlaneAsTheyAre)
   EXPECT_EQ((std::vector<Triangle>{{0, 1, 2}}), whole.triangles);
 }
 
-} // namespace
+} // namespace test_periodic_box

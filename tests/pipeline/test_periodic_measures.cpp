@@ -10,7 +10,7 @@
 
 #include <cmath>
 
-namespace {
+namespace test_periodic_measures {
 
 using namespace pcl_uvol;
 using namespace uvol_test;
@@ -30,7 +30,7 @@ wave(const Place& p)
 std::shared_ptr<Dataset>
 makeMasses(std::size_t count, const Field& field, const Place& shift = {})
 {
-  auto samples = makeSamples(count, field, shift);
+  auto samples = makePeriodicSamples(count, field, shift);
   setField(*samples, "mass", std::vector<double>(count, 0.5));
   return samples;
 }
@@ -55,7 +55,7 @@ measureInBox(const std::shared_ptr<Dataset>& samples,
 IsosurfacePipelineParameters
 makeMeshParameters(double isovalue, Outside outside, PeriodicMesh ends)
 {
-  IsosurfacePipelineParameters parameters = makeParameters(isovalue);
+  IsosurfacePipelineParameters parameters = makePeriodicParameters(isovalue);
   parameters.isosurface.outside = outside;
   parameters.mesh.emplace();
   parameters.periodic_mesh = ends;
@@ -185,4 +185,4 @@ TEST(PeriodicMeasures, BoxesMayBePeriodicAlongOneAxis)
   }
 }
 
-} // namespace
+} // namespace test_periodic_measures

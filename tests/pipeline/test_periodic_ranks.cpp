@@ -19,7 +19,7 @@
 #include <mutex>
 #include <numeric>
 
-namespace {
+namespace test_periodic_ranks {
 
 using namespace pcl_uvol;
 using namespace uvol_test;
@@ -29,7 +29,7 @@ using Samples = std::shared_ptr<Dataset>;
 IsosurfacePipelineParameters
 askFor(const std::vector<double>& isovalues)
 {
-  IsosurfacePipelineParameters parameters = makeParameters(0.0);
+  IsosurfacePipelineParameters parameters = makePeriodicParameters(0.0);
   parameters.isosurface.isovalues = isovalues;
   parameters.isosurface.interpolation = Interpolation::Fit; // that of ranks
   parameters.normals = NormalMethod::Edge;
@@ -112,14 +112,14 @@ expectSurfaceOfOne(const Samples& samples,
 TEST(PeriodicRanks, FindTheSurfaceOfOneProcess)
 {
   const auto alone =
-      expectSurfaceOfOne(makeSamples(4000, gyroid), askFor({0.25, -0.5}));
+      expectSurfaceOfOne(makePeriodicSamples(4000, gyroid), askFor({0.25, -0.5}));
   EXPECT_GT(alone.surface.cloud.width, 2000u);
   EXPECT_GT(alone.report.getCount("images"), 2000u);
 }
 
 TEST(PeriodicRanks, SeeAcrossTheFacesOfSomeAxes)
 {
-  const auto samples = makeSamples(2000, gyroid);
+  const auto samples = makePeriodicSamples(2000, gyroid);
   for (const Eigen::Array3d& sides :
        {Eigen::Array3d{side, 0.0, 0.0}, Eigen::Array3d{0.0, side, side}}) {
     IsosurfacePipelineParameters parameters = askFor({0.25});
@@ -177,7 +177,7 @@ TEST(PeriodicRanks, ReachAsFarAsUnevenSamplesNeed)
 
 TEST(PeriodicRanks, TakeSamplesThatHaveLeftTheBox)
 {
-  const Samples samples = makeSamples(2000, gyroid);
+  const Samples samples = makePeriodicSamples(2000, gyroid);
   const auto inside = runOnRanks(samples, askFor({0.25}), 3);
   const auto moved = std::make_shared<Dataset>(*samples);
   for (std::size_t i = 0; i < 2000; i += 3)
@@ -214,7 +214,7 @@ TEST(PeriodicRanks, TakeLatticesAndSamplesThatCoincide)
 
 TEST(PeriodicRanks, LeaveOutWhatHasNoValueOrNoPlace)
 {
-  const Samples samples = makeSamples(2000, gyroid);
+  const Samples samples = makePeriodicSamples(2000, gyroid);
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> values;
   for (std::size_t i = 0; i < 2000; ++i) {
@@ -228,15 +228,17 @@ TEST(PeriodicRanks, LeaveOutWhatHasNoValueOrNoPlace)
 
 TEST(PeriodicRanks, TakeFewSamples)
 {
-  expectSurfaceOfOne(makeSamples(40, gyroid), askFor({0.25}));
-  expectSurfaceOfOne(makeSamples(4, gyroid), askFor({0.25}));
+  expectSurfaceOfOne(makePeriodicSamples(40, gyroid), askFor({0.25}));
+  expectSurfaceOfOne(makePeriodicSamples(4, gyroid), askFor({0.25}));
 }
 
 TEST(PeriodicRanks, ShiftingTheSamplesShiftsTheSurface)
 {
-  const auto reference = runOnRanks(makeSamples(2000, gyroid), askFor({0.25}), 3);
+  const auto reference =
+      runOnRanks(makePeriodicSamples(2000, gyroid), askFor({0.25}), 3);
   const Place shift{{1.25, 3.5, -2.0}};
-  const auto moved = runOnRanks(makeSamples(2000, gyroid, shift), askFor({0.25}), 2);
+  const auto moved =
+      runOnRanks(makePeriodicSamples(2000, gyroid, shift), askFor({0.25}), 2);
   ASSERT_EQ(reference.surface.cloud.width, moved.surface.cloud.width);
   const std::size_t step = moved.surface.cloud.point_step;
   for (std::size_t i = 0; i < moved.surface.cloud.width; ++i) {
@@ -254,7 +256,8 @@ TEST(PeriodicRanks, ASphereOnACornerIsWhole)
 {
   constexpr double radius = 2.0;
   IsosurfacePipelineParameters parameters = askFor({radius});
-  const auto found = runOnRanks(makeSamples(6000, distanceToCorner), parameters, 5);
+  const auto found =
+      runOnRanks(makePeriodicSamples(6000, distanceToCorner), parameters, 5);
   std::array<std::size_t, 8> octants{};
   for (std::size_t i = 0; i < found.surface.cloud.width; ++i) {
     const Place place = placeOf(found.surface, i);
@@ -268,7 +271,7 @@ TEST(PeriodicRanks, ASphereOnACornerIsWhole)
 
 TEST(PeriodicRanks, RefuseABoxThatIsNone)
 {
-  const Samples samples = makeSamples(200, gyroid);
+  const Samples samples = makePeriodicSamples(200, gyroid);
   for (const double bad : {-1.0,
                            std::numeric_limits<double>::infinity(),
                            std::numeric_limits<double>::quiet_NaN()}) {
@@ -299,8 +302,8 @@ expectCutOfOne(const Samples& samples, const std::array<double, 3>& low)
 
 TEST(PeriodicRanks, CutTheBoxWhereOneProcessDoes)
 {
-  expectCutOfOne(makeSamples(3000, gyroid), {});
-  expectCutOfOne(makeSamples(30, gyroid), {});
+  expectCutOfOne(makePeriodicSamples(3000, gyroid), {});
+  expectCutOfOne(makePeriodicSamples(30, gyroid), {});
   std::vector<double> xyz;
   const std::vector<double> values(900, 1.0);
   for (int i = 0; i < 900; ++i) // one plane is not where it should be, one is fuller
@@ -316,7 +319,7 @@ TEST(PeriodicRanks, CutTheBoxWhereOneProcessDoes)
 TEST(PeriodicRanks, ReachAsFarAsOneProcess)
 {
   for (const Samples& samples :
-       {makeSamples(1500, gyroid), makeCrowd(1500), makeHollow(30000)}) {
+       {makePeriodicSamples(1500, gyroid), makeCrowd(1500), makeHollow(30000)}) {
     Report report;
     const PeriodicBox box = findPeriodicBox(*samples, {{side, side, side}}, report);
     std::vector<std::uint32_t> all(samples->cloud.width);
@@ -337,4 +340,4 @@ TEST(PeriodicRanks, ReachAsFarAsOneProcess)
   }
 }
 
-} // namespace
+} // namespace test_periodic_ranks

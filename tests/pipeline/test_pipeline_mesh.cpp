@@ -11,7 +11,7 @@
 #include <cmath>
 #include <functional>
 
-namespace {
+namespace test_pipeline_mesh {
 
 using namespace pcl_uvol;
 using namespace uvol_test;
@@ -148,4 +148,4 @@ TEST(PipelineMesh, ParametersAreChecked)
   EXPECT_EQ(good, IsosurfacePipelineParameters::fromJson(good.toJson()));
 }
 
-} // namespace
+} // namespace test_pipeline_mesh

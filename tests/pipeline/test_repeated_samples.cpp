@@ -13,7 +13,7 @@
 #include <memory>
 #include <vector>
 
-namespace {
+namespace test_repeated_samples {
 
 using pcl_uvol::Dataset;
 using pcl_uvol::IsosurfacePipelineParameters;
@@ -176,4 +176,4 @@ TEST(RepeatedSamples, SmoothsPointsAtOnePositionAsOneSample)
                 .surface.cloud.data);
 }
 
-} // namespace
+} // namespace test_repeated_samples

@@ -13,7 +13,7 @@
 #include <numeric>
 #include <vector>
 
-namespace {
+namespace test_sample_hull {
 
 using namespace pcl_uvol;
 using Eigen::Vector3f;
@@ -172,4 +172,4 @@ TEST(SampleHull, EndsNextToItsSharpEdges)
   }
 }
 
-} // namespace
+} // namespace test_sample_hull

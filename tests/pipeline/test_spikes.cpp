@@ -15,7 +15,7 @@
 #include <memory>
 #include <string>
 
-namespace {
+namespace test_spikes {
 
 using namespace pcl_uvol;
 using Eigen::Vector3d;
@@ -173,4 +173,4 @@ TEST(Spikes, AreNotSeenAtStepsAndLabels)
   EXPECT_EQ("", findWarning(uvol_test::runPipeline(sample(step, 8000), at(0.5 * 1e3))));
 }
 
-} // namespace
+} // namespace test_spikes

@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace test_sure_fits {
 
 using namespace pcl_uvol;
 
@@ -299,4 +299,4 @@ TEST(SureFits, PredictBetweenProfilesAndNotInStretchedCells)
   EXPECT_EQ(0x1p20 * predicted.least_x, large.least_x);
 }
 
-} // namespace
+} // namespace test_sure_fits

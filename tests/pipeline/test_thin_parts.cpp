@@ -14,7 +14,7 @@
 #include <memory>
 #include <string>
 
-namespace {
+namespace test_thin_parts {
 
 using namespace pcl_uvol;
 using Field = std::function<float(const Eigen::Vector3f&)>;
@@ -102,4 +102,4 @@ TEST(ThinParts, SidesOfOneIsovalueMeetInASample)
   EXPECT_TRUE(findThinParts(pcl::PointCloud<PointIso>(), {}).empty());
 }
 
-} // namespace
+} // namespace test_thin_parts

@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace test_turned_pipeline {
 
 using namespace pcl_uvol;
 using detail::StretchAxes;
@@ -207,4 +207,4 @@ TEST(TurnedPipeline, RefusesABoxThatRepeatsAndBadAngles)
   EXPECT_THROW(uvol_test::runPipeline(makeLayers(0.4), parameters), InvalidArgument);
 }
 
-} // namespace
+} // namespace test_turned_pipeline

@@ -12,7 +12,7 @@
 #include <memory>
 #include <numeric>
 
-namespace {
+namespace test_validation {
 
 using namespace pcl_uvol;
 
@@ -301,4 +301,4 @@ TEST(Validation, ItsParametersAreWrittenAndRead)
   EXPECT_NE(parameters, other);
 }
 
-} // namespace
+} // namespace test_validation

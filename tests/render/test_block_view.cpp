@@ -11,7 +11,7 @@
 #include <numeric>
 #include <vector>
 
-namespace {
+namespace test_block_view {
 
 using namespace uvol_test;
 using pcl_uvol::BlockView;
@@ -176,4 +176,4 @@ TEST(BlockView, LightsAreSeenFromTheEye)
   EXPECT_EQ(frame.lightVector(light), light.position);
 }
 
-} // namespace
+} // namespace test_block_view

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <limits>
 
-namespace {
+namespace test_camera {
 
 using pcl_uvol::BoundingSphere;
 using pcl_uvol::Camera;
@@ -146,4 +146,4 @@ TEST(View, RefusesSizesWithoutOrWithTooManyPixels)
   EXPECT_NO_THROW(View(camera, sphere, View::largest_size, 1));
 }
 
-} // namespace
+} // namespace test_camera

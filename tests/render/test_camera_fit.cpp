@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace test_camera_fit {
 
 using pcl_uvol::Camera;
 using pcl_uvol::FittedDisc;
@@ -210,4 +210,4 @@ TEST(CameraFit, EveryFrameOfATurnIsFitted)
     }
 }
 
-} // namespace
+} // namespace test_camera_fit

@@ -7,7 +7,7 @@
 
 #include <limits>
 
-namespace {
+namespace test_color_map {
 
 using pcl_uvol::Color;
 using pcl_uvol::ColorMap;
@@ -95,4 +95,4 @@ TEST(ColorMap, RefusesUnknownNamesAndRanges)
                InvalidArgument);
 }
 
-} // namespace
+} // namespace test_color_map

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace test_footprint_drawing {
 
 using namespace uvol_test;
 using pcl_uvol::Camera;
@@ -247,4 +247,4 @@ TEST(Footprints, CloseTenfoldZoomAndStayOnTheSurface)
   EXPECT_EQ(seenPixels(image), image.pixels());
 }
 
-} // namespace
+} // namespace test_footprint_drawing

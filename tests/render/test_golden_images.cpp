@@ -11,7 +11,7 @@
 #include <ostream>
 #include <string>
 
-namespace {
+namespace test_golden_images {
 
 using pcl_uvol::Image;
 using pcl_uvol::ImageSpaceSettings;
@@ -103,4 +103,4 @@ INSTANTIATE_TEST_SUITE_P(Modes,
                          testing::ValuesIn(modes),
                          [](const auto& tested) { return tested.param.name; });
 
-} // namespace
+} // namespace test_golden_images

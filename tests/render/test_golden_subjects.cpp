@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace test_golden_subjects {
 
 using pcl_uvol::Camera;
 using pcl_uvol::Image;
@@ -175,4 +175,4 @@ INSTANTIATE_TEST_SUITE_P(Subjects,
                          testing::ValuesIn(subjects),
                          [](const auto& tested) { return tested.param.name; });
 
-} // namespace
+} // namespace test_golden_subjects

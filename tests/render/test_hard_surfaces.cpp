@@ -9,7 +9,7 @@
 #include <cmath>
 #include <random>
 
-namespace {
+namespace test_hard_surfaces {
 
 using namespace uvol_test;
 using pcl_uvol::Camera;
@@ -262,4 +262,4 @@ TEST(HardSurfaces, SilhouettesAreAsWideWithSupersampling)
       }
 }
 
-} // namespace
+} // namespace test_hard_surfaces

@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-namespace {
+namespace test_image_space_renderer {
 
 using namespace uvol_test;
 using pcl_uvol::Camera;
@@ -276,4 +276,4 @@ TEST(ImageSpaceRenderer, RefusesBadInput)
   EXPECT_THROW(renderer.render(image), InvalidArgument); // planes cannot be averaged
 }
 
-} // namespace
+} // namespace test_image_space_renderer

@@ -14,7 +14,7 @@
 #include <optional>
 #include <vector>
 
-namespace {
+namespace test_point_colors {
 
 using pcl_uvol::ColorMap;
 using pcl_uvol::colorPoints;
@@ -313,4 +313,4 @@ TEST(PointColors, RefuseAFieldThatIsUnknownOrWithoutANumber)
   }
 }
 
-} // namespace
+} // namespace test_point_colors

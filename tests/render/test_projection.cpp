@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace {
+namespace test_projection {
 
 using namespace uvol_test;
 using pcl_uvol::Camera;
@@ -158,4 +158,4 @@ TEST(PixelFilling, EqualsTheMasksOfTheThesis)
   }
 }
 
-} // namespace
+} // namespace test_projection

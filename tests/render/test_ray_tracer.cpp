@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace {
+namespace test_ray_tracer {
 
 using namespace uvol_test;
 using pcl_uvol::Camera;
@@ -426,4 +426,4 @@ TEST(RayTracer, ManyLightsAndAnExceptionFromProgress)
   EXPECT_TRUE(untouched.color.empty());
 }
 
-} // namespace
+} // namespace test_ray_tracer

@@ -20,7 +20,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace test_scans {
 
 using pcl_uvol::Camera;
 using pcl_uvol::Image;
@@ -179,4 +179,4 @@ TEST_P(ScanPicture, HasNoHoles)
 
 INSTANTIATE_TEST_SUITE_P(Scans, ScanPicture, testing::ValuesIn(scans));
 
-} // namespace
+} // namespace test_scans

@@ -7,7 +7,7 @@
 #include <array>
 #include <vector>
 
-namespace {
+namespace test_shading {
 
 using namespace uvol_test;
 using pcl_uvol::Camera;
@@ -238,4 +238,4 @@ TEST(Background, PlainGradientAndTransparent)
   EXPECT_EQ(image.color[4 * (32 * 64 + 32) + 3], 255);
 }
 
-} // namespace
+} // namespace test_shading

@@ -15,7 +15,7 @@
 #include <optional>
 #include <random>
 
-namespace {
+namespace test_splat_tracing {
 
 using namespace uvol_test;
 using pcl_uvol::Camera;
@@ -815,4 +815,4 @@ TEST(SplatTracing, CameraWithinASplat)
   EXPECT_EQ(0.0, channelAt(image, 4, 0, 0));
 }
 
-} // namespace
+} // namespace test_splat_tracing

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <pcl/conversions.h>
 
-namespace {
+namespace test_stretch_surface {
 
 using Eigen::Vector3d;
 
@@ -54,4 +54,4 @@ TEST(StretchSurface, RefusesSplats)
                pcl_uvol::InvalidArgument);
 }
 
-} // namespace
+} // namespace test_stretch_surface

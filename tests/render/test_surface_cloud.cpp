@@ -11,7 +11,7 @@
 #include <numeric>
 #include <set>
 
-namespace {
+namespace test_surface_cloud {
 
 using pcl_uvol::InvalidArgument;
 using pcl_uvol::Report;
@@ -139,4 +139,4 @@ TEST(SurfaceCloud, RefusesNothing)
   EXPECT_THROW(prepare(lost, report), InvalidArgument);
 }
 
-} // namespace
+} // namespace test_surface_cloud

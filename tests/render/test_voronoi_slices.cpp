@@ -12,7 +12,7 @@
 #include <numeric>
 #include <set>
 
-namespace {
+namespace test_voronoi_slices {
 
 using pcl_uvol::drawVoronoiSlices;
 using pcl_uvol::GridCell;
@@ -223,4 +223,4 @@ TEST(VoronoiSlices, RefusesNonsense)
     EXPECT_THROW(drawVoronoiSlices(grid, 0, slices), InvalidArgument) << slices;
 }
 
-} // namespace
+} // namespace test_voronoi_slices

@@ -10,7 +10,7 @@
 #include <functional>
 #include <memory>
 
-namespace {
+namespace test_fallback_backend {
 
 using pcl_uvol::Image;
 
@@ -91,4 +91,4 @@ TEST_F(FallbackBackend, LeavesOtherErrorsAndGoodPicturesAlone)
   EXPECT_THROW(renderer_.render(image_), pcl_uvol::InvalidArgument);
 }
 
-} // namespace
+} // namespace test_fallback_backend

@@ -8,7 +8,7 @@
 
 #include <limits>
 
-namespace {
+namespace test_estimated_splats {
 
 double
 estimate(const pcl::PointCloud<pcl::PointNormal>& cloud, double delta)
@@ -43,4 +43,4 @@ TEST(EstimatedSplats, AreAGuessWithoutAPatch)
   EXPECT_LE(estimate(*bad, 1e-4), 1.0);
 }
 
-} // namespace
+} // namespace test_estimated_splats

@@ -13,7 +13,7 @@
 #include <numeric>
 #include <random>
 
-namespace {
+namespace test_footprints {
 
 using pcl_uvol::Footprints;
 using uvol_test::SurfaceCloudPtr;
@@ -460,4 +460,4 @@ TEST(Footprints, DoNotDependOnThreads)
   }
 }
 
-} // namespace
+} // namespace test_footprints

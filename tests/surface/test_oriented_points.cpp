@@ -11,7 +11,7 @@
 #include <limits>
 #include <numeric>
 
-namespace {
+namespace test_oriented_points {
 
 using pcl_uvol::InvalidArgument;
 using pcl_uvol::OrientedPoints;
@@ -97,4 +97,4 @@ TEST(OrientedPoints, AreRefusedWhereThereAreNone)
   EXPECT_THROW(orient(lost, report), InvalidArgument);
 }
 
-} // namespace
+} // namespace test_oriented_points

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <random>
 
-namespace {
+namespace test_packed_normal {
 
 TEST(PackedNormal, IsWithinAHundredthOfADegree)
 {
@@ -28,4 +28,4 @@ TEST(PackedNormal, IsWithinAHundredthOfADegree)
   EXPECT_LT(largest, 0.004 * 3.14159265 / 180.0);
 }
 
-} // namespace
+} // namespace test_packed_normal

@@ -15,7 +15,7 @@
 #include <numeric>
 #include <random>
 
-namespace {
+namespace test_rim_lines {
 
 using namespace pcl_uvol;
 using Eigen::Vector2f;
@@ -419,4 +419,4 @@ TEST(RimLines, DependOnNeitherThreadsNorUnitNorOrder)
   EXPECT_EQ(rims, of_reversed);
 }
 
-} // namespace
+} // namespace test_rim_lines

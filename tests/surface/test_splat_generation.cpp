@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace {
+namespace test_splat_generation {
 
 using namespace uvol_test;
 using Eigen::Vector3d;
@@ -397,4 +397,4 @@ TEST(SplatGeneration, SheetsHalfASpacingApartHaveNoHoles)
     }
 }
 
-} // namespace
+} // namespace test_splat_generation

@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace test_splat_growth {
 
 using namespace pcl_uvol;
 using Eigen::Matrix2d;
@@ -181,4 +181,4 @@ TEST(SplatGrowth, EndsAtTheErrorBoundAndPassesOverWhatItCovers)
   }
 }
 
-} // namespace
+} // namespace test_splat_growth

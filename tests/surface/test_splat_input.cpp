@@ -16,7 +16,7 @@
 #include <numeric>
 #include <stdexcept>
 
-namespace {
+namespace test_splat_input {
 
 using namespace uvol_test;
 using Eigen::Vector3d;
@@ -559,4 +559,4 @@ TEST(ReadSplats, NeedsAllFields)
   EXPECT_FALSE(pcl_uvol::hasSplats(pcl_uvol::viewOf(cloud)));
 }
 
-} // namespace
+} // namespace test_splat_input

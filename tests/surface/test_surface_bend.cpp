@@ -9,7 +9,7 @@
 #include <functional>
 #include <random>
 
-namespace {
+namespace test_surface_bend {
 
 using namespace pcl_uvol;
 using Eigen::Vector2f;
@@ -117,4 +117,4 @@ TEST(SurfaceBend, IsPackedToAThousandthOrReducedAsAWhole)
   EXPECT_LT((reduced / most_bend - bend / 0.24f).cwiseAbs().maxCoeff(), 2e-3f);
 }
 
-} // namespace
+} // namespace test_surface_bend

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <limits>
 
-namespace {
+namespace test_surface_normals {
 
 using Cloud = pcl::PointCloud<pcl::PointNormal>;
 using Estimation = pcl_uvol::SurfaceNormalEstimation<pcl::PointNormal>;
@@ -371,4 +371,4 @@ TEST(SurfaceNormals, BadInputThrows)
   expectThrow(nowhere, nothing);
 }
 
-} // namespace
+} // namespace test_surface_normals

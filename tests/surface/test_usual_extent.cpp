@@ -8,7 +8,7 @@
 #include <array>
 #include <vector>
 
-namespace {
+namespace test_usual_extent {
 
 using namespace pcl_uvol;
 using Sides = std::array<double, 3>;
@@ -69,4 +69,4 @@ TEST(UsualExtent, AllPointsOfAFewCount)
             findUsualSides({{{0, 0, 0}}, {{1, 0, 0}}, {{2, 0, 0}}, {{1e6f, 0, 0}}}));
 }
 
-} // namespace
+} // namespace test_usual_extent

@@ -12,7 +12,7 @@
 #include <string>
 #include <sys/resource.h>
 
-namespace {
+namespace test_bounded_memory {
 
 /** A third of the samples in 1/300 of the space. */
 void
@@ -74,4 +74,4 @@ TEST(BoundedMemory, HoldsBesideAClusterInThreeTimesTheTime_long)
             uvol_test::readFile(folder / "bound.ply"));
 }
 
-} // namespace
+} // namespace test_bounded_memory

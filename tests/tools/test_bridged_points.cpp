@@ -15,7 +15,7 @@
 using namespace pcl_uvol;
 using namespace uvol_test;
 
-namespace {
+namespace test_bridged_points {
 
 constexpr std::size_t points = 60; // in gaps
 
@@ -87,8 +87,6 @@ findDots(const Image& image)
   return dots;
 }
 
-} // namespace
-
 TEST_P(BridgedPoints, AreSinglePalePixels)
 {
   const auto [tool, drawn] = GetParam();
@@ -117,3 +115,5 @@ INSTANTIATE_TEST_SUITE_P(
                     std::pair("uvol_render -backend osmesa", "s.ply"),
                     std::pair("uvol_raytrace -no-shadows", "s.ply"),
                     std::pair("uvol_raytrace -no-shadows", "splats.ply")));
+
+} // namespace test_bridged_points

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <filesystem>
 
-namespace {
+namespace test_broken_files_in_tools {
 
 using uvol_test::runCommand;
 
@@ -71,4 +71,4 @@ INSTANTIATE_TEST_SUITE_P(Tools,
                            return tool.substr(0, tool.find(' '));
                          });
 
-} // namespace
+} // namespace test_broken_files_in_tools

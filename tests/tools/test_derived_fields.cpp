@@ -14,7 +14,7 @@
 using namespace pcl_uvol;
 using namespace uvol_test;
 
-namespace {
+namespace test_derived_fields {
 
 /** Taylor and Green's vortices in a CSV file, with a name of two words. */
 class DerivedFields : public testing::Test {
@@ -63,8 +63,6 @@ protected:
   const std::string in_ = folder_ / "in.csv", out_ = folder_ / "out.ply",
                     png_ = folder_ / "out.png";
 };
-
-} // namespace
 
 TEST_F(DerivedFields, IsosurfaceOfAVortexCriterion)
 {
@@ -166,3 +164,5 @@ TEST(DerivedFieldsOfRealData, VorticesOfARotatingDisk)
       runCommand("uvol_info " + data + "/cfd/disk_out_ref.vtu -where '|Q(V)|>2000'");
   EXPECT_NE(std::string::npos, info.out.find("removed by where 8499")) << info.out;
 }
+
+} // namespace test_derived_fields

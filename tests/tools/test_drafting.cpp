@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-namespace {
+namespace test_drafting {
 
 using uvol_tools::DraftChoice;
 
@@ -101,4 +101,4 @@ TEST(DraftingPipeline, MakesMeshesAndSeveralIsovaluesOfFewerSamples)
             pipeline.run({{0.7}, true, {}}, 1, nullptr).triangles.size() / 3);
 }
 
-} // namespace
+} // namespace test_drafting

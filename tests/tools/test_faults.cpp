@@ -10,7 +10,7 @@
 #include <map>
 #include <sys/stat.h>
 
-namespace {
+namespace test_faults {
 
 using uvol_test::CommandResult;
 using uvol_test::readFile;
@@ -311,4 +311,4 @@ INSTANTIATE_TEST_SUITE_P(
                     Tool{"compare", "uvol_compare MESH SURFACE OUT.ply"}),
     [](const auto& tool) { return tool.param.name; });
 
-} // namespace
+} // namespace test_faults

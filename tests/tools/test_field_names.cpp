@@ -5,7 +5,7 @@
 
 #include <sstream>
 
-namespace {
+namespace test_field_names {
 
 using namespace uvol_test;
 
@@ -82,4 +82,4 @@ TEST_F(FieldNames, OfAttributesMayHaveCommas)
   EXPECT_EQ(0, result.exit_code) << result.err;
 }
 
-} // namespace
+} // namespace test_field_names

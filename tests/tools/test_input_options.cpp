@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-namespace {
+namespace test_input_options {
 
 using uvol_test::CommandResult;
 
@@ -86,8 +86,6 @@ countWarnings(const CommandResult& result, const std::string& sentence)
 
 const std::string conflicts = "several lie whose values differ";
 
-} // namespace
-
 TEST_F(InputOptions, AreThoseOfEveryTool)
 {
   for (const auto& [tool, options] : jobs) {
@@ -158,3 +156,5 @@ TEST_F(InputOptions, DoNotPredictTheStepToTheValueOutside)
                 2,
                 "-fill-gaps goes without -outside-value");
 }
+
+} // namespace test_input_options

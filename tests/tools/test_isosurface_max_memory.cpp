@@ -12,7 +12,7 @@
 #include <regex>
 #include <sstream>
 
-namespace {
+namespace test_isosurface_max_memory {
 
 using pcl_uvol::uniformAt;
 
@@ -176,4 +176,4 @@ TEST_F(MaxMemory, AFullScratchFolderIsOneSentence)
   }
 }
 
-} // namespace
+} // namespace test_isosurface_max_memory

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace {
+namespace test_isosurface_voronoi {
 
 using uvol_test::CommandResult;
 using uvol_test::readFile;
@@ -138,4 +138,4 @@ TEST_F(IsosurfaceVoronoi, RefusesGridsThatDoNotFit)
   expectFailure("-neighbors voronoi -grid 16384", 1, "16384 x ");
 }
 
-} // namespace
+} // namespace test_isosurface_voronoi

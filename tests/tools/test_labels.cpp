@@ -13,7 +13,7 @@
 using namespace pcl_uvol;
 using namespace uvol_test;
 
-namespace {
+namespace test_labels {
 
 /** Vertical holes in a square of five by five; the value is 10 minus the distance from
  * the middle, so that its level sets are spheres. */
@@ -63,8 +63,6 @@ protected:
 };
 
 const std::string iso = "isosurface holes.csv s.ply -iso 7 ";
-
-} // namespace
 
 TEST_F(Labels, AreReadInAlphabeticalOrder)
 {
@@ -178,3 +176,5 @@ TEST_F(Labels, AreListedAndAreNoField)
       resultOf("probe holes.csv p.csv -field all -grid 3x3x3", "p.csv");
   EXPECT_EQ(0u, probed.labels.count("hole"));
 }
+
+} // namespace test_labels

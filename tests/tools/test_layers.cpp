@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace {
+namespace test_layers {
 
 const std::string check = "bash '" PCL_UVOL_SOURCE_DIR "/tests/tools/check_layers.sh' ";
 
@@ -66,4 +66,4 @@ TEST(Layers, HeadersHaveTheirExceptions)
   EXPECT_EQ(1, check_header(""));
 }
 
-} // namespace
+} // namespace test_layers

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace test_maps {
 
 using namespace pcl_uvol;
 using uvol_test::fieldOf;
@@ -200,4 +200,4 @@ TEST_F(Maps, TwoLostFixesDoNotChangeAVolume)
   EXPECT_EQ(0u, with[1].find("2 of 1200 positions are far from all others"));
 }
 
-} // namespace
+} // namespace test_maps

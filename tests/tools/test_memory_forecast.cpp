@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace test_memory_forecast {
 
 using uvol_test::runCommand;
 
@@ -204,4 +204,4 @@ INSTANTIATE_TEST_SUITE_P(Tools,
                          testing::ValuesIn(runs),
                          [](const auto& run) { return std::string(run.param.name); });
 
-} // namespace
+} // namespace test_memory_forecast

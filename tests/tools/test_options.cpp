@@ -8,7 +8,7 @@
 #include <limits>
 #include <optional>
 
-namespace {
+namespace test_options {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -273,4 +273,4 @@ TEST(SimilarWords, AreContinuationsFirst)
   EXPECT_EQ("", pcl_uvol::findSimilar(words, "density"));
 }
 
-} // namespace
+} // namespace test_options

@@ -6,7 +6,7 @@
 
 using namespace uvol_test;
 
-namespace {
+namespace test_particles {
 
 class Particles : public ToolTest {
 protected:
@@ -67,4 +67,4 @@ TEST_F(Particles, WhatGoesWithWhat)
   expectSuccess("-field RHO -iso 4.5 -particles 0 -max-memory 2G");
 }
 
-} // namespace
+} // namespace test_particles

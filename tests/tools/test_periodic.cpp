@@ -8,7 +8,7 @@
 
 using namespace uvol_test;
 
-namespace {
+namespace test_periodic {
 
 constexpr double side = 8.0;
 
@@ -228,4 +228,4 @@ TEST_F(Periodic, WhatGoesWithWhat)
   expectFailure("-iso 0 -periodic header", 1, "names no box");
 }
 
-} // namespace
+} // namespace test_periodic

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <sstream>
 
-namespace {
+namespace test_printed_charts {
 
 using uvol_test::readFile;
 
@@ -108,4 +108,4 @@ TEST_F(PrintedCharts, WhatIsNotDrawnHasNoSize)
   EXPECT_EQ(std::vector<std::string>{"in.csv"}, folder_.list());
 }
 
-} // namespace
+} // namespace test_printed_charts

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-namespace {
+namespace test_probe_cells {
 
 using namespace uvol_test;
 using Json = nlohmann::json;
@@ -224,4 +224,4 @@ TEST_F(ProbeCells, BluntFinHasNoGaps)
     EXPECT_FALSE(std::isnan(value));
 }
 
-} // namespace
+} // namespace test_probe_cells

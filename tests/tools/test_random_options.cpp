@@ -8,7 +8,7 @@
 
 #include <list>
 
-namespace {
+namespace test_random_options {
 
 using uvol_test::countDefaultLines;
 using uvol_test::pick;
@@ -122,4 +122,4 @@ TEST_F(RandomFrontEnd, EndsInASentenceOrAResult_long)
   run(countDefaultLines(), long_lines);
 }
 
-} // namespace
+} // namespace test_random_options

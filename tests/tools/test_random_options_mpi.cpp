@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace {
+namespace test_random_options_mpi {
 
 using uvol_test::countDefaultLines;
 using uvol_test::RandomLines;
@@ -29,4 +29,4 @@ TEST(RandomRankOptions, EndInASentenceOrAResult_long)
   RandomLines(ranks).run(countDefaultLines(), 800);
 }
 
-} // namespace
+} // namespace test_random_options_mpi

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace {
+namespace test_random_viewer_options {
 
 using uvol_test::RandomLines;
 using uvol_test::RandomTool;
@@ -27,4 +27,4 @@ TEST_F(RandomViewerOptions, EndInASentenceOrAResult_long)
   RandomLines(viewer_).run(10, 190);
 }
 
-} // namespace
+} // namespace test_random_viewer_options

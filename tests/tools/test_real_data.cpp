@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace test_real_data {
 
 using uvol_test::runCommand;
 
@@ -262,4 +262,4 @@ INSTANTIATE_TEST_SUITE_P(RealVolumes,
                            return std::string(volume.param.first);
                          });
 
-} // namespace
+} // namespace test_real_data

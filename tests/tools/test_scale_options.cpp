@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace test_scale_options {
 
 using uvol_test::runCommand;
 
@@ -189,4 +189,4 @@ TEST(ScaleOfRealData, IsThatOfTheOceanAndOneElsewhere)
   }
 }
 
-} // namespace
+} // namespace test_scale_options

@@ -12,7 +12,7 @@
 
 using namespace uvol_test;
 
-namespace {
+namespace test_series {
 
 const std::string table = "x,y,z,rho\n1,2,3,0.5\n4,5,6,1.5\n7,8,9.25,2.5\n";
 
@@ -351,4 +351,4 @@ TEST_F(GrowingBalls, FoldersThatTakeNoFilesAreOneSentence)
   EXPECT_FALSE(exists("p_0.png"));
 }
 
-} // namespace
+} // namespace test_series

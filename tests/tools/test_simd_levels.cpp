@@ -6,7 +6,7 @@
 
 #include <cstdlib>
 
-namespace {
+namespace test_simd_levels {
 
 /** Standard error and exit code are checked, the file is what counts. */
 std::string
@@ -60,4 +60,4 @@ TEST(SimdLevels, SameBytes)
   EXPECT_EQ(pixels, fileOf("avx512", trace, picture));
 }
 
-} // namespace
+} // namespace test_simd_levels

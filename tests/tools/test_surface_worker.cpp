@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace test_surface_worker {
 
 using pcl_uvol::ProgressCallback;
 using uvol_tools::ExtractedSurface;
@@ -282,4 +282,4 @@ TEST(SurfaceWorker, EndsWhatIsUnderWay)
   SUCCEED() << "its thread has ended";
 }
 
-} // namespace
+} // namespace test_surface_worker

@@ -9,7 +9,7 @@
 #include <set>
 #include <sstream>
 
-namespace {
+namespace test_uvol {
 
 using testing::HasSubstr;
 using testing::Not;
@@ -164,4 +164,4 @@ TEST(Manual, ExplainsEveryOption)
   EXPECT_THAT(page.str(), HasSubstr(".SH DESCRIPTION\nExtracts the isosurface"));
 }
 
-} // namespace
+} // namespace test_uvol

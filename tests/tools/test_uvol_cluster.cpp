@@ -2,7 +2,7 @@
 // uvol_cluster from the outside: planted clusters are found and chosen.
 #include "tools/cluster_tool.h"
 
-namespace {
+namespace test_uvol_cluster {
 
 using namespace uvol_test;
 
@@ -339,4 +339,4 @@ TEST_F(ClusterTool, RefusesOtherFiles)
   expectFailure(attributes_, 1, "missing.csv");
 }
 
-} // namespace
+} // namespace test_uvol_cluster

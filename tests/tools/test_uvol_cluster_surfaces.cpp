@@ -4,7 +4,7 @@
 
 #include <array>
 
-namespace {
+namespace test_uvol_cluster_surfaces {
 
 using namespace uvol_test;
 
@@ -179,4 +179,4 @@ TEST_F(ClusterTool, TinyClustersGetASurfaceOrAClearAnswer)
         0u);
 }
 
-} // namespace
+} // namespace test_uvol_cluster_surfaces

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-namespace {
+namespace test_uvol_compare {
 
 using Json = nlohmann::json;
 using uvol_test::CommandResult;
@@ -125,4 +125,4 @@ TEST_F(CompareTool, AThousandOfVeryManyFieldsAreTold)
             report.at("warnings").dump().find("have 20000 fields in common"));
 }
 
-} // namespace
+} // namespace test_uvol_compare

@@ -6,7 +6,7 @@
 
 using namespace uvol_test;
 
-namespace {
+namespace test_uvol_convert {
 
 class Convert : public FolderTest {
 protected:
@@ -76,4 +76,4 @@ TEST_F(Convert, OtherEndingsNameAWay)
   EXPECT_NE(std::string::npos, run("c.laz b.ply").err.find("no such file"));
 }
 
-} // namespace
+} // namespace test_uvol_convert

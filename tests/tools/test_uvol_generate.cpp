@@ -12,7 +12,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-namespace {
+namespace test_uvol_generate {
 
 using uvol_test::runCommand;
 using uvol_test::TemporaryFolder;
@@ -238,4 +238,4 @@ TEST(UvolGenerate, AFullStandardOutputIsAFailure)
   EXPECT_EQ(1, result.exit_code);
 }
 
-} // namespace
+} // namespace test_uvol_generate

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-namespace {
+namespace test_uvol_info {
 
 using uvol_test::runCommand;
 
@@ -271,4 +271,4 @@ TEST_F(UvolInfo, DescribesEveryRealVolume)
                  {"size: ", "spacing: 1 1 1", "suggested isovalues"});
 }
 
-} // namespace
+} // namespace test_uvol_info

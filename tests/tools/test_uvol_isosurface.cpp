@@ -16,7 +16,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-namespace {
+namespace test_uvol_isosurface {
 
 using uvol_test::CommandResult;
 using uvol_test::runCommand;
@@ -480,4 +480,4 @@ TEST_F(Isosurface, AFullDiskLeavesNothingBehind)
   }
 }
 
-} // namespace
+} // namespace test_uvol_isosurface

@@ -11,7 +11,7 @@
 #include <set>
 #include <sstream>
 
-namespace {
+namespace test_uvol_isosurface_mesh {
 
 using Json = nlohmann::json;
 using pcl_uvol::Dataset;
@@ -195,4 +195,4 @@ TEST_F(MeshTool, RefusesWhatDoesNotGoTogether)
   expectFailure(base + "-mesh", 1, ".pcd");
 }
 
-} // namespace
+} // namespace test_uvol_isosurface_mesh

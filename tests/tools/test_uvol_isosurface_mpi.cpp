@@ -22,7 +22,7 @@
 #include <regex>
 #include <sstream>
 
-namespace {
+namespace test_uvol_isosurface_mpi {
 
 using pcl_uvol::Dataset;
 using uvol_test::CommandResult;
@@ -473,4 +473,4 @@ TEST_F(FaultsOfARank, AFullDiskIsOneSentence)
   EXPECT_EQ(std::vector<std::string>{"in.pcd"}, folder_.list());
 }
 
-} // namespace
+} // namespace test_uvol_isosurface_mpi

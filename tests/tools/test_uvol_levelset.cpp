@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace {
+namespace test_uvol_levelset {
 
 using uvol_test::CommandResult;
 using uvol_test::runCommand;
@@ -168,4 +168,4 @@ TEST_F(LevelSetTool, SaysThatItEndedTooEarly)
             (result.out + result.err).find("has not converged after 2 steps"));
 }
 
-} // namespace
+} // namespace test_uvol_levelset

@@ -14,7 +14,7 @@
 #include <numeric>
 #include <sstream>
 
-namespace {
+namespace test_uvol_measure {
 
 using Json = nlohmann::json;
 using uvol_test::CommandResult;
@@ -393,4 +393,4 @@ TEST_F(MeasureTool, RefusesWhatIsNoSurface)
   refuses(in_, "neither triangles nor normals");
 }
 
-} // namespace
+} // namespace test_uvol_measure

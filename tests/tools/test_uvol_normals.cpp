@@ -11,7 +11,7 @@
 #include <cstdlib>
 #include <sstream>
 
-namespace {
+namespace test_uvol_normals {
 
 /** Unit sphere about (100, 0, 0) with a label, and with outside vectors on demand. */
 std::string
@@ -131,4 +131,4 @@ TEST_F(NormalsTool, RefusesWhatItCannotDo)
   EXPECT_EQ(1u, folder_.list().size());
 }
 
-} // namespace
+} // namespace test_uvol_normals

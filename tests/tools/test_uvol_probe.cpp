@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-namespace {
+namespace test_uvol_probe {
 
 using namespace uvol_test;
 using Values = std::vector<double>;
@@ -402,4 +402,4 @@ TEST_F(ProbeTool, RefusesNonsense)
   EXPECT_EQ(1, runTo("line.vti", line).exit_code);
 }
 
-} // namespace
+} // namespace test_uvol_probe

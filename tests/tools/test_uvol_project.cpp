@@ -14,7 +14,7 @@
 #include <map>
 #include <sstream>
 
-namespace {
+namespace test_uvol_project {
 
 using pcl_uvol::Dataset;
 using uvol_test::CommandResult;
@@ -376,4 +376,4 @@ TEST_F(ProjectTool, RefusesOtherFiles)
   expectFailure(attributes_, 1, "missing.csv");
 }
 
-} // namespace
+} // namespace test_uvol_project

@@ -13,7 +13,7 @@
 #include <string>
 #include <utility>
 
-namespace {
+namespace test_uvol_raytrace {
 
 using uvol_test::CommandResult;
 using uvol_test::runCommand;
@@ -320,4 +320,4 @@ TEST_F(RaytraceTool, EstimatesNormalsAndSaysSo)
   EXPECT_NE(std::string::npos, (result.out + result.err).find("estimated"));
 }
 
-} // namespace
+} // namespace test_uvol_raytrace

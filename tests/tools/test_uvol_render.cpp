@@ -15,7 +15,7 @@
 #include <tuple>
 #include <vector>
 
-namespace {
+namespace test_uvol_render {
 
 using uvol_test::runCommand;
 
@@ -495,4 +495,4 @@ TEST_F(RenderTool, WebPageLooksLikeThePictureInABrowser_long)
   EXPECT_LT(difference / (3.0 * static_cast<double>(count)), 4.0);
 }
 
-} // namespace
+} // namespace test_uvol_render

@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace test_uvol_splats {
 
 using uvol_test::runCommand;
 
@@ -269,4 +269,4 @@ TEST_F(SplatsTool, GaussiansLieInThePlanesOfTheSplats)
                 .exit_code);
 }
 
-} // namespace
+} // namespace test_uvol_splats

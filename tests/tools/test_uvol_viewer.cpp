@@ -11,7 +11,7 @@
 #include <string>
 #include <tuple>
 
-namespace {
+namespace test_uvol_viewer {
 
 using pcl_uvol::Image;
 using uvol_test::countColored;
@@ -161,4 +161,4 @@ TEST(UvolViewerWithoutDisplay, HelpNamesEveryKey)
   EXPECT_NE(std::string::npos, result.out.find("-iso"));
 }
 
-} // namespace
+} // namespace test_uvol_viewer

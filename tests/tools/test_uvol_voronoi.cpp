@@ -11,7 +11,7 @@
 #include <cmath>
 #include <sstream>
 
-namespace {
+namespace test_uvol_voronoi {
 
 using pcl_uvol::Volume;
 using uvol_test::CommandResult;
@@ -270,4 +270,4 @@ TEST_F(VoronoiTool, RefusesOtherFiles)
   expectFailure("", 1, "missing.csv");
 }
 
-} // namespace
+} // namespace test_uvol_voronoi

@@ -11,7 +11,7 @@
 #include <string>
 #include <utility>
 
-namespace {
+namespace test_viewer_cameras {
 
 using pcl_uvol::Image;
 using uvol_test::columnsOf;
@@ -179,4 +179,4 @@ TEST_F(UvolViewer, ABarLeavesACameraThatIsPlacedWhereItIs)
   expectPlaced(beside_bar, "a bar");
 }
 
-} // namespace
+} // namespace test_viewer_cameras

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cstring>
 
-namespace {
+namespace test_viewer_files {
 
 using pcl_uvol::Image;
 using uvol_test::covered;
@@ -84,4 +84,4 @@ TEST_F(UvolViewer, DroppedPointsThatCannotBeDrawnLeaveTheOldOnes)
   EXPECT_GT(covered(open.shoot()), 1000);
 }
 
-} // namespace
+} // namespace test_viewer_files

@@ -10,7 +10,7 @@
 #include <string>
 #include <thread>
 
-namespace {
+namespace test_viewer_isovalues {
 
 using pcl_uvol::Image;
 using uvol_test::covered;
@@ -138,4 +138,4 @@ TEST_F(UvolViewer, IsovaluesAreTyped)
   EXPECT_TRUE(before.color != open.shoot().color);
 }
 
-} // namespace
+} // namespace test_viewer_isovalues

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <string>
 
-namespace {
+namespace test_viewer_keys {
 
 using pcl_uvol::Image;
 using uvol_test::covered;
@@ -141,4 +141,4 @@ TEST_F(UvolViewer, KeysSaveASurfaceAndAPictureThatRenderDrawsAgain)
   EXPECT_LT(different, static_cast<int>(first.color.size()) / 200);
 }
 
-} // namespace
+} // namespace test_viewer_keys

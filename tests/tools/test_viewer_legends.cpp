@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace test_viewer_legends {
 
 using pcl_uvol::Image;
 using uvol_test::height;
@@ -109,4 +109,4 @@ TEST_F(UvolViewer, PicturesShowWhatTheWindowShowsWhenABarHasCome)
   }
 }
 
-} // namespace
+} // namespace test_viewer_legends

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <string>
 
-namespace {
+namespace test_viewer_lengths {
 
 using pcl_uvol::Image;
 using uvol_test::columnsOf;
@@ -108,4 +108,4 @@ TEST_F(UvolViewer, StretchesWhatItShowsAndNotTheData)
   EXPECT_NEAR(0.78 * (right - left), shown_right - shown_left, 2);
 }
 
-} // namespace
+} // namespace test_viewer_lengths

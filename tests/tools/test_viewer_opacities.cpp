@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace test_viewer_opacities {
 
 using pcl_uvol::Image;
 using uvol_test::countColored;
@@ -114,4 +114,4 @@ TEST(OpacityChoice, FollowsTheIsovaluesThatHavePoints)
   EXPECT_EQ((Opacities{0.5, 0.25, 0.25}), given.find(three, {}));
 }
 
-} // namespace
+} // namespace test_viewer_opacities

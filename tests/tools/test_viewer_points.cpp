@@ -7,7 +7,7 @@
 
 #include <string>
 
-namespace {
+namespace test_viewer_points {
 
 using pcl_uvol::Image;
 using uvol_test::covered;
@@ -81,4 +81,4 @@ TEST_F(UvolViewer, AKeyCutsAwayWhatLiesInFront)
   EXPECT_EQ(whole, open.surface.getCloud()->width);
 }
 
-} // namespace
+} // namespace test_viewer_points

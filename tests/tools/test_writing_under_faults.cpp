@@ -9,7 +9,7 @@
 #include <csignal>
 #include <filesystem>
 
-namespace {
+namespace test_writing_under_faults {
 
 using uvol_test::CommandResult;
 using uvol_test::readFile;
@@ -191,4 +191,4 @@ TEST(FilesOfTools, DanglingLinksAreFollowed)
   EXPECT_TRUE(fs::is_regular_file(folder / "there/new.csv"));
 }
 
-} // namespace
+} // namespace test_writing_under_faults

@@ -2,7 +2,7 @@
 // Hulls of clusters: closed surfaces of the genus of the cluster, through its points.
 #include "vtk/cluster_shapes.h"
 
-namespace {
+namespace test_cluster_hulls {
 
 using namespace uvol_test;
 
@@ -198,4 +198,4 @@ TEST(ClusterSurfaces, ShrinkTheRegionsOfBruteForce)
   }
 }
 
-} // namespace
+} // namespace test_cluster_hulls

@@ -5,7 +5,7 @@
 
 #include <pcl/point_types.h>
 
-namespace {
+namespace test_cluster_surface {
 
 using namespace uvol_test;
 
@@ -479,4 +479,4 @@ TEST(ClusterSurfaces, AreInterruptedAtEveryStep)
   }
 }
 
-} // namespace
+} // namespace test_cluster_surface

@@ -8,7 +8,7 @@
 #include <functional>
 #include <vector>
 
-namespace {
+namespace test_coarseness {
 
 using pcl_uvol::Coarseness;
 
@@ -78,4 +78,4 @@ TEST(Coarseness, StillFramesAreFine)
   EXPECT_EQ(1, coarseness.choose(false));
 }
 
-} // namespace
+} // namespace test_coarseness

@@ -13,7 +13,7 @@
 #include <map>
 #include <utility>
 
-namespace {
+namespace test_contour {
 
 using Eigen::Vector3d;
 using pcl_uvol::contourGrid;
@@ -182,4 +182,4 @@ TEST(ContourGrid, RefusesAnotherNumberOfValues)
     EXPECT_THROW(contourGrid(shape, std::vector<float>(count), 0.5), InvalidArgument);
 }
 
-} // namespace
+} // namespace test_contour

@@ -19,7 +19,7 @@
 
 #include <cmath>
 
-namespace {
+namespace test_image_space_prop {
 
 using pcl_uvol::Image;
 using pcl_uvol::ImageSpaceProp;
@@ -530,4 +530,4 @@ INSTANTIATE_TEST_SUITE_P(By,
                            return std::string(toWord(backend.param));
                          });
 
-} // namespace
+} // namespace test_image_space_prop

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace test_disc_kernel {
 
 using namespace pcl_uvol;
 using Eigen::Vector3d;
@@ -626,4 +626,4 @@ TEST(DiscKernel, DiscsThatLookToTheEyeAreBlendedOverSuchAsLookAway)
   });
 }
 
-} // namespace
+} // namespace test_disc_kernel

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace test_fill_kernel {
 
 using namespace pcl_uvol;
 using uvol_test::makeKey;
@@ -152,4 +152,4 @@ TEST(FillKernel, SurfacesBehindAreFilledByWhatIsALayerInFront)
   }
 }
 
-} // namespace
+} // namespace test_fill_kernel

@@ -12,7 +12,7 @@
 #include <functional>
 #include <vector>
 
-namespace {
+namespace test_filter_kernel {
 
 using namespace pcl_uvol;
 using uvol_test::PixelRandom;
@@ -287,4 +287,4 @@ TEST(FilterKernel, OutputRoundsToBytesOverTheBackground)
   }
 }
 
-} // namespace
+} // namespace test_filter_kernel

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace test_layer_blend {
 
 using pcl_uvol::Background;
 using pcl_uvol::Image;
@@ -203,4 +203,4 @@ TEST_F(Transparency, NeedsAnOpacityForEveryIsovalue)
   EXPECT_THROW(draw(both, {0.5}), InvalidArgument);
 }
 
-} // namespace
+} // namespace test_layer_blend

@@ -19,7 +19,7 @@
 #include <numeric>
 #include <vector>
 
-namespace {
+namespace test_occlusion {
 
 using namespace pcl_uvol;
 using Eigen::Vector3d;
@@ -384,4 +384,4 @@ TEST(AmbientOcclusion, RefusesStrengthsThatAreNone)
     EXPECT_THROW(valley.draw(strength), InvalidArgument) << strength;
 }
 
-} // namespace
+} // namespace test_occlusion

@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <thread>
 
-namespace {
+namespace test_prepared_surface {
 
 using pcl_uvol::Image;
 using pcl_uvol::PreparedSurface;
@@ -112,4 +112,4 @@ TEST(PreparedSurface, IsToldWhatItCannotDo)
   EXPECT_NO_THROW(prepared.findFootprints());
 }
 
-} // namespace
+} // namespace test_prepared_surface

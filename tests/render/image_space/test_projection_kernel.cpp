@@ -12,7 +12,7 @@
 #include <set>
 #include <vector>
 
-namespace {
+namespace test_projection_kernel {
 
 using namespace pcl_uvol;
 using Eigen::Vector3d;
@@ -317,4 +317,4 @@ TEST(ProjectionKernel, DiscsThatAreLeftOutWouldChangeNothing)
   });
 }
 
-} // namespace
+} // namespace test_projection_kernel

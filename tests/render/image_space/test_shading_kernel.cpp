@@ -11,7 +11,7 @@
 #include <cmath>
 #include <vector>
 
-namespace {
+namespace test_shading_kernel {
 
 using namespace pcl_uvol;
 using Eigen::Vector3d;
@@ -196,4 +196,4 @@ TEST(ShadingKernel, IsBlinnPhong)
   }
 }
 
-} // namespace
+} // namespace test_shading_kernel

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace test_tile_shader {
 
 using namespace pcl_uvol;
 using uvol_test::PixelRandom;
@@ -260,4 +260,4 @@ TEST(TileShader, TilesAreTheWholeImage)
   }
 }
 
-} // namespace
+} // namespace test_tile_shader

@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-namespace {
+namespace test_ray_shader {
 
 using namespace pcl_uvol;
 using Eigen::Vector3d;
@@ -152,4 +152,4 @@ TEST(RayShader, GlassMirrorsByFresnelsEquations)
     }
 }
 
-} // namespace
+} // namespace test_ray_shader

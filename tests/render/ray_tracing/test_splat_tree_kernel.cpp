@@ -13,7 +13,7 @@
 #include <random>
 #include <vector>
 
-namespace {
+namespace test_splat_tree_kernel {
 
 using namespace pcl_uvol;
 using Eigen::Vector3d;
@@ -364,4 +364,4 @@ TEST(TreeBuilder, EveryItemIsInOneLeafAndWithinTheBoxesAbove)
   EXPECT_LT(discs.leaves.size(), 3 * 700 / tree_width);
 }
 
-} // namespace
+} // namespace test_splat_tree_kernel
