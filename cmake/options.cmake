@@ -21,7 +21,7 @@ endmacro()
 
 pcl_uvol_part(EXPRESSIONS "Build pcl_uvol::expressions (muParser)" ${PROJECT_IS_TOP_LEVEL})
 pcl_uvol_part(FILTERS "Build pcl_uvol::filters (VTK)" ${PROJECT_IS_TOP_LEVEL})
-pcl_uvol_part(IO "Build pcl_uvol::io (VTK, PCL io, zlib)" ${PROJECT_IS_TOP_LEVEL} FILTERS)
+pcl_uvol_part(IO "Build pcl_uvol::io (VTK, libpng, liblzf, zlib)" ${PROJECT_IS_TOP_LEVEL} FILTERS)
 pcl_uvol_part(GL "Build pcl_uvol::gl (headers of OpenGL and EGL)" ${PROJECT_IS_TOP_LEVEL})
 pcl_uvol_part(VTK "Build pcl_uvol::vtk (VTK)" ${PROJECT_IS_TOP_LEVEL} FILTERS GL)
 pcl_uvol_part(MPI "Build pcl_uvol::mpi and the tools that use it (VTK with MPI)" ${PROJECT_IS_TOP_LEVEL})

@@ -1,37 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/files.h"
-#include "io/vtk_messages.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/image_file.h>
 
-#include <vtkImageData.h>
-#include <vtkPNGWriter.h>
-#include <vtkUnsignedCharArray.h>
-
 #include <algorithm>
 #include <cmath>
+#include <new>
+#include <png.h>
 #include <string>
-#include <zlib.h>
 
 namespace pcl_uvol {
 
 namespace {
-
-/** VTK's first row is the lowest. */
-vtkNew<vtkImageData>
-toVtk(const Image& image, int channels)
-{
-  vtkNew<vtkImageData> data;
-  data->SetDimensions(static_cast<int>(image.width), static_cast<int>(image.height), 1);
-  data->AllocateScalars(VTK_UNSIGNED_CHAR, channels);
-  auto* target = static_cast<std::uint8_t*>(data->GetScalarPointer());
-  for (std::size_t row = image.height; row-- > 0;)
-    for (std::size_t column = 0; column < image.width; ++column)
-      target =
-          std::copy_n(&image.color[4 * (row * image.width + column)], channels, target);
-  return data;
-}
 
 bool
 isOpaque(const Image& image)
@@ -53,35 +34,90 @@ checkResolution(double dots_per_inch)
                           std::to_string(dots_per_inch) + ".");
 }
 
-void
-appendBig(std::string& bytes, std::uint32_t number)
-{
-  for (int shift = 24; shift >= 0; shift -= 8)
-    bytes += static_cast<char>(number >> shift);
-}
+/** A file of libpng in memory. */
+class PngWriter {
+public:
+  /** libpng's own way back from an error, longjmp(), would pass over destructors. */
+  PngWriter()
+      : png_(png_create_write_struct(
+            PNG_LIBPNG_VER_STRING,
+            nullptr,
+            [](png_structp, png_const_charp message) {
+              throw IOError(
+                  "libpng could not encode a picture: " + std::string(message) + '.');
+            },
+            [](png_structp, png_const_charp) {}))
+      , info_(png_ == nullptr ? nullptr : png_create_info_struct(png_))
+  {
+    if (info_ == nullptr) {
+      png_destroy_write_struct(&png_, nullptr);
+      throw std::bad_alloc();
+    }
+  }
 
-/** The chunk of a PNG file that says how large its pixels are printed; VTK writes none.
- */
-std::string
-makeSizeChunk(double dots_per_inch)
-{
-  constexpr double meters_per_inch = 0.0254;
-  const auto per_meter =
-      static_cast<std::uint32_t>(std::lround(dots_per_inch / meters_per_inch));
-  std::string body = "pHYs";
-  appendBig(body, per_meter);
-  appendBig(body, per_meter);
-  body += '\1'; // the unit is the meter
-  std::string chunk;
-  appendBig(chunk, 9);
-  chunk += body;
-  appendBig(
-      chunk,
-      static_cast<std::uint32_t>(crc32(crc32(0, nullptr, 0),
-                                       reinterpret_cast<const Bytef*>(body.data()),
-                                       static_cast<uInt>(body.size()))));
-  return chunk;
-}
+  PngWriter(const PngWriter&) = delete;
+  PngWriter&
+  operator=(const PngWriter&) = delete;
+
+  ~PngWriter()
+  {
+    png_destroy_write_struct(&png_, &info_);
+  }
+
+  std::vector<std::uint8_t>
+  write(const Image& image,
+        const std::vector<ImageText>& texts,
+        double dots_per_inch) const
+  {
+    std::vector<std::uint8_t> file;
+    png_set_write_fn(
+        png_,
+        &file,
+        [](png_structp png, png_bytep bytes, std::size_t count) {
+          auto& target = *static_cast<std::vector<std::uint8_t>*>(png_get_io_ptr(png));
+          target.insert(target.end(), bytes, bytes + count);
+        },
+        nullptr);
+    constexpr int level =
+        5; // that of VTK's writer, so that files are those of older versions
+    png_set_compression_level(png_, level);
+    const bool opaque = isOpaque(image);
+    png_set_IHDR(png_,
+                 info_,
+                 static_cast<png_uint_32>(image.width),
+                 static_cast<png_uint_32>(image.height),
+                 8,
+                 opaque ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA,
+                 PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT,
+                 PNG_FILTER_TYPE_DEFAULT);
+    if (dots_per_inch > 0.0) {
+      constexpr double meters_per_inch = 0.0254;
+      const auto per_meter =
+          static_cast<png_uint_32>(std::lround(dots_per_inch / meters_per_inch));
+      png_set_pHYs(png_, info_, per_meter, per_meter, PNG_RESOLUTION_METER);
+    }
+    for (const auto& [keyword, text] : texts) {
+      png_text entry{};
+      entry.compression = PNG_TEXT_COMPRESSION_NONE;
+      entry.key = const_cast<char*>(keyword.c_str());
+      entry.text = const_cast<char*>(text.c_str());
+      entry.text_length = text.size();
+      png_set_text(png_, info_, &entry, 1);
+    }
+    png_write_info(png_, info_);
+    if (opaque)
+      png_set_filler(png_, 0, PNG_FILLER_AFTER); // the fourth byte is no opacity
+    for (std::size_t row = 0; row < image.height; ++row)
+      png_write_row(png_, &image.color[4 * row * image.width]);
+    png_write_end(png_, info_);
+    return file;
+  }
+
+private:
+  png_structp png_;
+  png_infop info_;
+};
 
 } // namespace
 
@@ -99,25 +135,7 @@ encodePng(const Image& image, const std::vector<ImageText>& texts, double dots_p
   checkResolution(dots_per_inch);
   if (image.color.size() != 4 * image.pixels() || image.pixels() == 0)
     throw InvalidArgument("The image has no pixels.");
-  const auto data = toVtk(image, isOpaque(image) ? 3 : 4);
-  const io::VtkMessages messages;
-  vtkNew<vtkPNGWriter> writer;
-  writer->SetInputData(data);
-  writer->WriteToMemoryOn();
-  for (const auto& [keyword, text] : texts)
-    writer->AddText(keyword.c_str(), text.c_str());
-  writer->Write();
-  vtkUnsignedCharArray* const bytes = writer->GetResult();
-  if (bytes == nullptr || !messages.getError().empty())
-    throw IOError("VTK could not encode a picture: " + messages.getError());
-  std::vector<std::uint8_t> file(bytes->GetPointer(0),
-                                 bytes->GetPointer(0) + bytes->GetNumberOfValues());
-  if (dots_per_inch > 0.0) {
-    constexpr std::ptrdiff_t header_bytes = 33; // of the signature and the first chunk
-    const std::string chunk = makeSizeChunk(dots_per_inch);
-    file.insert(file.begin() + header_bytes, chunk.begin(), chunk.end());
-  }
-  return file;
+  return PngWriter().write(image, texts, dots_per_inch);
 }
 
 void

@@ -10,11 +10,10 @@
 #include "io/label_comments.h"
 #include "io/record_source.h"
 
-#include <pcl/io/lzf.h>
-
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <liblzf/lzf.h>
 #include <limits>
 
 namespace pcl_uvol {
@@ -252,8 +251,7 @@ readCompressed(const InputFile& file, const std::string& path, const Header& hea
     return records;
   std::vector<std::uint8_t> packed(sizes[0]), unpacked(sizes[1]);
   file.read(header.body + sizeof(sizes), packed.data(), packed.size());
-  if (pcl::lzfDecompress(packed.data(), sizes[0], unpacked.data(), sizes[1]) !=
-      sizes[1])
+  if (lzf_decompress(packed.data(), sizes[0], unpacked.data(), sizes[1]) != sizes[1])
     throwUnreadable(path, "its compressed data are damaged");
   const std::uint8_t* from = unpacked.data(); // all of one field, then the next
   for (const auto& field : records.fields) {
