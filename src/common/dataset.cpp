@@ -6,7 +6,6 @@
 #include <pcl_uvol/common/exceptions.h>
 
 #include <cstring>
-#include <limits>
 
 namespace pcl_uvol {
 namespace {
@@ -53,7 +52,7 @@ setCoordinates(Dataset& dataset, const std::vector<double>& xyz)
 {
   auto& cloud = dataset.cloud;
   const std::size_t count = xyz.size() / 3;
-  if (xyz.size() % 3 != 0 || count > std::numeric_limits<pcl::uindex_t>::max())
+  if (xyz.size() % 3 != 0 || count > most_points)
     throw InvalidArgument("There are " + std::to_string(xyz.size()) +
                           " coordinates, which are not three for each point.");
   if (cloud.fields.empty()) {

@@ -134,8 +134,7 @@ recordBytes(const Fields& fields)
 void
 checkSize(std::uint64_t count, std::uint64_t step)
 {
-  constexpr std::uint64_t most = std::numeric_limits<pcl::uindex_t>::max();
-  if (count > most || step > most)
+  if (count > most_points || step > most_points)
     throw InvalidArgument(std::to_string(count) + " points of " + std::to_string(step) +
                           " bytes are more than PCL can number.");
 }

@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,9 @@
 namespace pcl_uvol {
 
 using Fields = std::vector<pcl::PCLPointField>;
+
+/** \brief What PCL can number: points of a cloud, bytes of a point. */
+constexpr std::uint64_t most_points = std::numeric_limits<pcl::uindex_t>::max();
 
 /** \brief Bytes of a field in a point. */
 PCL_UVOL_EXPORTS std::size_t

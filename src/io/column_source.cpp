@@ -2,7 +2,7 @@
 #include "io/column_source.h"
 
 #include "common/scalar_field.h"
-#include "io/vtk_arrays.h"
+#include "io_vtk/vtk_arrays.h"
 
 #include <algorithm>
 #include <cstring>

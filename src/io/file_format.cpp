@@ -4,7 +4,7 @@
 #include "common/similar_words.h"
 #include "io/files.h"
 #include "io/formats.h"
-#include "io/hdf5_file.h"
+#include "io_vtk/hdf5_file.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>

@@ -17,6 +17,9 @@
 namespace pcl_uvol {
 namespace io {
 
+/** \brief Bytes that deflate makes of one at most: zeros. */
+constexpr std::uint64_t deflate_expansion = 1032;
+
 /** \throws IOError "Cannot read 'path': reason." */
 [[noreturn]] void
 throwUnreadable(const std::string& path, const std::string& reason);

@@ -6,7 +6,7 @@
 #include "io/column_source.h"
 #include "io/formats.h"
 #include "io/snapshot.h"
-#include "io/vtk_arrays.h"
+#include "io_vtk/vtk_arrays.h"
 
 #include <pcl/PCLPointField.h>
 

@@ -23,7 +23,7 @@ namespace io {
 namespace {
 
 using Words = std::vector<std::string_view>;
-using Place = std::array<double, 3>;
+using Corner = std::array<double, 3>;
 
 /** Gathers vertices and triangles. */
 class MeshBuilder {
@@ -34,7 +34,7 @@ public:
   }
 
   void
-  addVertex(const Place& place)
+  addVertex(const Corner& place)
   {
     if (countVertices() == std::numeric_limits<std::uint32_t>::max())
       throwUnreadable(path_, "it has more vertices than can be numbered");
@@ -114,10 +114,10 @@ public:
   }
 
   /** Three numbers, from that word on. */
-  Place
+  Corner
   takeNumbers(const Words& words, std::size_t first) const
   {
-    Place numbers{};
+    Corner numbers{};
     if (words.size() < first + 3)
       fail("it has fewer than three coordinates");
     for (std::size_t i = 0; i < 3; ++i)
@@ -231,15 +231,15 @@ private:
 
   MeshText text_;
   MeshBuilder builder_;
-  std::vector<Place> normals_;
+  std::vector<Corner> normals_;
   std::vector<std::uint32_t> normal_of_; // by vertex
   bool has_normals_ = true;
   std::vector<std::uint32_t> corners_;
 };
 
-struct PlaceHash {
+struct CornerHash {
   std::size_t
-  operator()(const Place& place) const
+  operator()(const Corner& place) const
   {
     std::size_t hash = 0;
     for (const double coordinate : place)
@@ -257,7 +257,7 @@ public:
   }
 
   std::uint32_t
-  numberVertex(Place place)
+  numberVertex(Corner place)
   {
     for (double& coordinate : place)
       coordinate += 0.0; // -0 is 0
@@ -270,7 +270,7 @@ public:
 
 private:
   MeshBuilder& builder_;
-  std::unordered_map<Place, std::uint32_t, PlaceHash> numbers_;
+  std::unordered_map<Corner, std::uint32_t, CornerHash> numbers_;
 };
 
 constexpr std::size_t stl_header = 84, stl_triangle = 50;
@@ -290,7 +290,7 @@ isBinaryStl(const std::string& path)
 }
 
 void
-checkFinite(const std::string& path, const Place& place)
+checkFinite(const std::string& path, const Corner& place)
 {
   for (const double coordinate : place)
     if (!std::isfinite(coordinate))
@@ -317,7 +317,7 @@ readBinaryStl(const std::string& path)
     std::memcpy(numbers.data(), bytes, sizeof(numbers));
     std::vector<std::uint32_t> corners;
     for (std::size_t k = 3; k < numbers.size(); k += 3) {
-      const Place place = {numbers[k], numbers[k + 1], numbers[k + 2]};
+      const Corner place = {numbers[k], numbers[k + 1], numbers[k + 2]};
       checkFinite(path, place);
       corners.push_back(places.numberVertex(place));
     }
@@ -338,7 +338,7 @@ readTextStl(const std::string& path)
   while (text.next(words)) {
     has_end = words[0] == "endsolid";
     if (words[0] == "vertex") {
-      const Place place = text.takeNumbers(words, 1);
+      const Corner place = text.takeNumbers(words, 1);
       checkFinite(path, place);
       corners.push_back(places.numberVertex(place));
     }

@@ -14,7 +14,6 @@
 #include <array>
 #include <cstring>
 #include <liblzf/lzf.h>
-#include <limits>
 
 namespace pcl_uvol {
 namespace io {
@@ -34,7 +33,7 @@ struct Header {
 /** A word of the header gives at most that many bytes per field. */
 constexpr std::uint64_t most_components = 1u << 20;
 /** LZF makes at most 264 bytes of 3. */
-constexpr std::uint64_t most_expansion = 88;
+constexpr std::uint64_t lzf_expansion = 88;
 
 std::uint8_t
 parseDatatype(std::string_view type, std::string_view size)
@@ -174,7 +173,7 @@ PcdHeaderParser::finish() const
                           quoteText(counts_[i]) + "; allowed is 1 to " +
                           std::to_string(most_components));
     bytes += count * datatypeSize(datatype);
-    if (bytes > std::numeric_limits<pcl::uindex_t>::max())
+    if (bytes > most_points)
       throwUnreadable(path_, "the fields of its header are too large");
     appendField(header.info.fields, names_[i], datatype, count);
   }
@@ -229,7 +228,7 @@ compressedSizes(const InputFile& file, const std::string& path, const Header& he
     if (left < sizeof(sizes))
       throwTruncated(path, count, left);
     file.read(body, sizes.data(), sizeof(sizes));
-    if (sizes[0] > left - sizeof(sizes) || count > sizes[0] * most_expansion / step)
+    if (sizes[0] > left - sizeof(sizes) || count > sizes[0] * lzf_expansion / step)
       throwTruncated(path, count, left);
     if (sizes[1] != count * step)
       throwUnreadable(path,

@@ -8,13 +8,10 @@
 #include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>
-#include <limits>
 
 namespace pcl_uvol {
 namespace {
 
-/** What a block of PCL can number. */
-constexpr std::uint64_t most_points = std::numeric_limits<pcl::uindex_t>::max();
 /** Points that one reading for some of them spans at most. */
 constexpr std::uint64_t row_span = 256;
 

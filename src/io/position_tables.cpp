@@ -16,7 +16,7 @@ constexpr const char* position_names[] = {"Coordinates",
                                           "xyz",
                                           "Points",
                                           "points"};
-constexpr const char* axis_names[][3] = {
+constexpr const char* split_names[][3] = {
     {"x", "y", "z"}, {"X", "Y", "Z"}, {"px", "py", "pz"}};
 
 } // namespace
@@ -36,7 +36,7 @@ findPositionTables(const std::vector<NumberTable>& tables)
   for (const char* const name : position_names)
     if (const std::size_t table = find(name, 3); table < tables.size())
       return {table};
-  for (const auto& names : axis_names) {
+  for (const auto& names : split_names) {
     std::vector<std::size_t> found;
     for (const char* const name : names)
       found.push_back(find(name, 1));

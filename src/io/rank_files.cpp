@@ -14,14 +14,11 @@
 #include <filesystem>
 #include <glob.h>
 #include <iterator>
-#include <limits>
 #include <system_error>
 #include <unistd.h>
 
 namespace pcl_uvol {
 namespace {
-
-constexpr std::uint64_t most_points = std::numeric_limits<pcl::uindex_t>::max();
 
 std::vector<std::string>
 matching(const std::string& pattern)

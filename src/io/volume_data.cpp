@@ -22,8 +22,6 @@ namespace {
 
 /** Tangent of the angle up to which axes are parallel. */
 constexpr double oblique = 1e-6;
-/** Deflate makes at most 1032 bytes of one. */
-constexpr std::uint64_t most_expansion = 1032;
 /** Numbers that are converted while they are in the cache. */
 constexpr std::size_t block_numbers = std::size_t(1) << 15;
 
@@ -162,7 +160,7 @@ ValueReader::checkSize()
                                 (left - data_.skipped_bytes) / bytes_ >= count_
                       : data_.encoding == VolumeData::Encoding::Ascii
                           ? (left + 1) / 2 >= count_
-                          : left >= count_ / most_expansion;
+                          : left >= count_ / deflate_expansion;
   if (!enough)
     throwTruncated();
 }

@@ -3,7 +3,7 @@
 // names that readers look for, and chunks whose packed bytes are any. They are written
 // by the library of HDF5, whose own headers stay whole: it does not survive them
 // damaged.
-#include "io/hdf5_column.h"
+#include "io_vtk/hdf5_column.h"
 #include "point_files.h"
 #include "random_cloud.h"
 #include "targets.h"

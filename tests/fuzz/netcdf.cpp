@@ -2,7 +2,7 @@
 // Files of NetCDF made of bytes: variables and attributes under the names that the
 // reader looks for. They are written by the library of NetCDF, which believes the
 // headers of damaged files.
-#include "io/hdf5_column.h"
+#include "io_vtk/hdf5_column.h"
 #include "point_files.h"
 #include "random_cloud.h"
 #include "targets.h"

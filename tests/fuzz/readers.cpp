@@ -4,7 +4,7 @@
 #include "common/scalar_field.h"
 #include "io/memory_need.h"
 #include "io/point_stream.h"
-#include "io/vtk_readers.h"
+#include "io_vtk/vtk_readers.h"
 #include "point_files.h"
 #include "promises.h"
 #include "targets.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "charts/drawing.h"
 
-#include "io/vtk_messages.h"
+#include "io_vtk/vtk_messages.h"
 #include <pcl_uvol/render/color_map.h>
 
 #include <vtkFreeTypeTools.h>

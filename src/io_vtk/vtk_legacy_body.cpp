@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io_vtk/vtk_legacy_body.h"
+
+#include "common/numbers.h"
+#include "common/printable.h"
+#include "common/scalar_field.h"
+#include "io/formats.h"
+
+#include <limits>
+
+namespace pcl_uvol {
+namespace io {
+
+std::string
+decodeLegacyName(std::string_view text)
+{
+  const auto digit = [](char c) {
+    return c >= '0' && c <= '9'   ? c - '0'
+           : c >= 'a' && c <= 'f' ? c - 'a' + 10
+           : c >= 'A' && c <= 'F' ? c - 'A' + 10
+                                  : -1;
+  };
+  std::string name;
+  for (std::size_t at = 0; at < text.size(); ++at)
+    if (text[at] == '%' && at + 2 < text.size() && digit(text[at + 1]) >= 0 &&
+        digit(text[at + 2]) >= 0) {
+      name += static_cast<char>(16 * digit(text[at + 1]) + digit(text[at + 2]));
+      at += 2;
+    }
+    else
+      name += text[at];
+  return name;
+}
+
+LegacyBody::LegacyBody(const std::string& path, FileCursor& cursor, bool is_binary)
+    : path_(path)
+    , cursor_(cursor)
+    , is_binary_(is_binary)
+{
+}
+
+void
+LegacyBody::fail(const std::string& reason) const
+{
+  throwUnreadable(path_, cursor_.tell().line, reason);
+}
+
+void
+LegacyBody::skipNumbers(const VtkType& type, std::uint64_t count)
+{
+  const std::uint64_t size = datatypeSize(type.datatype);
+  if (is_binary_) {
+    if (count > cursor_.left() / size)
+      fail("it is truncated or damaged: " + std::to_string(count) +
+           " numbers are promised, but only " + std::to_string(cursor_.left()) +
+           " bytes follow");
+    cursor_.skip(size * count);
+    return;
+  }
+  std::string_view ignored;
+  for (std::uint64_t i = 0; i < count; ++i)
+    if (!cursor_.nextWord(ignored))
+      fail("it is truncated: numbers are missing at its end");
+}
+
+vtkSmartPointer<vtkDataArray>
+LegacyBody::readArray(std::string_view type_name,
+                      const std::string& name,
+                      std::uint64_t components,
+                      std::uint64_t tuples)
+{
+  const bool bits = type_name == "bit";
+  const VtkType* const type = findLegacyType(bits ? "unsigned_char" : type_name);
+  if (!type)
+    fail("the array " + quoteText(name) + " has the type " + quoteText(type_name) +
+         ", which is not read");
+  const std::uint64_t size = is_binary_ ? datatypeSize(type->datatype) : 2;
+  checkPromise(path_,
+               name,
+               components,
+               tuples,
+               size,
+               (cursor_.left() + 1) * (bits && is_binary_ ? 8 : 1));
+  vtkSmartPointer<vtkDataArray> array = makeArray(*type, name, components, tuples);
+  const std::uint64_t numbers = components * tuples;
+  std::uint8_t* const bytes = bytesOf(*array);
+  if (!is_binary_)
+    readTexts(path_,
+              cursor_,
+              std::numeric_limits<std::uint64_t>::max(),
+              type->datatype,
+              numbers,
+              bytes);
+  else if (bits) {
+    const auto packed_bytes = static_cast<std::size_t>((numbers + 7) / 8);
+    const char* const packed = cursor_.take(packed_bytes);
+    if (!packed)
+      fail("it is truncated: bits are missing at its end");
+    for (std::uint64_t i = 0; i < numbers; ++i)
+      bytes[i] = static_cast<std::uint8_t>(packed[i / 8] >> (7 - i % 8) & 1);
+  }
+  else {
+    if (numbers > cursor_.left() / size)
+      fail("it is truncated: numbers are missing at its end");
+    cursor_.getFile().read(cursor_.tell().offset, bytes, numbers * size);
+    cursor_.skip(numbers * size);
+    swapBytes(bytes, size, numbers); // the files are big-endian
+  }
+  if (type_name == "vtkidtype") { // written as int
+    vtkSmartPointer<vtkDataArray> ids =
+        makeArray(*findLegacyType("vtktypeint64"), name, components, tuples);
+    ids->DeepCopy(array);
+    return ids;
+  }
+  return array;
+}
+
+void
+LegacyBody::skipTexts(std::uint64_t count)
+{
+  std::string_view ignored;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    if (!is_binary_) {
+      if (!cursor_.nextLine(ignored))
+        fail("it is truncated: texts are missing at its end");
+      continue;
+    }
+    // The two highest bits tell how many bytes the length has: 8, 4, 2, 1.
+    const char* at = cursor_.take(1);
+    std::uint64_t length = at ? static_cast<unsigned char>(*at) & 0x3f : 0;
+    const int more = at ? (8 >> (static_cast<unsigned char>(*at) >> 6)) - 1 : 0;
+    for (int byte = 0; byte < more && at; ++byte)
+      if ((at = cursor_.take(1)) != nullptr)
+        length = length << 8 | static_cast<unsigned char>(*at);
+    if (!at || !cursor_.skip(length))
+      fail("it is truncated: texts are missing at its end");
+  }
+}
+
+void
+LegacyBody::skipMetadata()
+{
+  std::string_view line;
+  while (cursor_.nextLine(line) && !trimmed(line).empty())
+    continue;
+}
+
+} // namespace io
+} // namespace pcl_uvol
