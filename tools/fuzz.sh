@@ -104,7 +104,7 @@ for target in "${targets[@]}"; do
 done
 compgen -G 'build/fuzz/coverage/*.profraw' >/dev/null || exit $found # all had their executions
 llvm-profdata merge -o build/fuzz/coverage/all.profdata build/fuzz/coverage/*.profraw
-llvm-cov report build/fuzz/lib/libpcl_uvol_io.so -instr-profile=build/fuzz/coverage/all.profdata >build/fuzz/coverage.txt
+llvm-cov report build/fuzz/lib/libpcl_uvol_io.so -object build/fuzz/lib/libpcl_uvol_io_vtk.so -instr-profile=build/fuzz/coverage/all.profdata >build/fuzz/coverage.txt
 # vtk_data_reader.cpp calls VTK's own readers, which are not fuzzed.
 readers='(readers?|scanner|tags|nrrd|meta_image|volume_data|volume_header|pcd_io|hdf5_[a-z]*|netcdf_[a-z]*|scene_[a-z]*|text_rows|encoded_bytes|unpacked_file|file_cursor|snapshot|position_tables)[.]cpp$'
 awk -v readers="$readers" '$1 ~ "src/io(_vtk)?/" && $1 ~ readers && $1 !~ /_writer|vtk_data_reader/ { lines += $8; missed += $9 }

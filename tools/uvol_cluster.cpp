@@ -17,6 +17,8 @@
 #include <pcl_uvol/multivariate/density_clustering.h>
 #include <pcl_uvol/vtk/cluster_surface.h>
 
+#include <vtkLogger.h>
+
 #include <algorithm>
 #include <map>
 #include <sstream>
@@ -332,5 +334,7 @@ run(int argc, char** argv)
 int
 main(int argc, char** argv)
 {
+  // What VTK would tell of errors, the sentence of the error tells.
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
   return uvol_tools::runTool("uvol_cluster", [&] { return run(argc, argv); });
 }

@@ -2,7 +2,7 @@
 #include "io/column_source.h"
 
 #include "common/scalar_field.h"
-#include "io_vtk/vtk_arrays.h"
+#include "io/little_endian.h"
 
 #include <algorithm>
 #include <cstring>

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "io/record_source.h"
+#include <pcl_uvol/common/export.h>
 
 #include <functional>
 #include <memory>
@@ -45,7 +46,7 @@ struct NamedColumn {
 
 /** \brief Tuples that lie in a file as they are.
  * \param swapped the byte order is not the native one */
-std::unique_ptr<FileColumn>
+PCL_UVOL_EXPORTS std::unique_ptr<FileColumn>
 openStored(std::shared_ptr<const InputFile> file,
            std::uint64_t offset,
            std::uint8_t datatype,
@@ -53,11 +54,11 @@ openStored(std::shared_ptr<const InputFile> file,
            bool swapped);
 
 /** \brief The same number for every point. */
-std::unique_ptr<FileColumn>
+PCL_UVOL_EXPORTS std::unique_ptr<FileColumn>
 makeConstant(double value);
 
 /** \brief Records of columns of the same length. */
-class ColumnSource : public NumberedSource {
+class PCL_UVOL_EXPORTS ColumnSource : public NumberedSource {
 public:
   ColumnSource(std::uint64_t count,
                std::vector<NamedColumn> columns,
@@ -76,7 +77,7 @@ private:
 
 /** \brief The records of several files behind one another; one file is open at a time.
  */
-class PartsSource : public NumberedSource {
+class PCL_UVOL_EXPORTS PartsSource : public NumberedSource {
 public:
   using Open = std::function<std::unique_ptr<RecordSource>(std::size_t part)>;
 
@@ -104,7 +105,7 @@ private:
 };
 
 /** \brief Some records of another source. */
-class SelectedSource : public NumberedSource {
+class PCL_UVOL_EXPORTS SelectedSource : public NumberedSource {
 public:
   /** \param rows those that are kept, ascending */
   SelectedSource(std::unique_ptr<RecordSource> source, std::vector<std::uint64_t> rows);

@@ -4,6 +4,7 @@
 #include "io/formats.h"
 #include "io/globe_places.h"
 #include "io/record_source.h"
+#include "io/vtk_library.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>
@@ -37,7 +38,7 @@ openRecords(const std::string& path, FileFormat format, const LoadOptions& optio
   case FileFormat::Gadget:
     return openGadget(path, options);
   case FileFormat::Hdf5:
-    return openHdf5(path, options);
+    return vtkLibrary().openHdf5(path, options);
   case FileFormat::Las:
     return openLas(path);
   case FileFormat::Npy:
@@ -49,11 +50,9 @@ openRecords(const std::string& path, FileFormat format, const LoadOptions& optio
   case FileFormat::Plot3d:
     return openPlot3d(path);
   case FileFormat::Netcdf:
-#ifdef PCL_UVOL_HAS_NETCDF
-    return openNetcdf(path, options);
-#else
-    throwUnreadable(path, "this build does not read NetCDF, whose library it lacks");
-#endif
+    if (vtkLibrary().openNetcdf == nullptr)
+      throwUnreadable(path, "this build does not read NetCDF, whose library it lacks");
+    return vtkLibrary().openNetcdf(path, options);
   default:
     return nullptr;
   }
@@ -70,7 +69,7 @@ readFormat(const std::string& path, FileFormat format, const LoadOptions& option
   case FileFormat::Text:
     return readText(path, options);
   case FileFormat::Vtk:
-    return readVtk(path, options);
+    return vtkLibrary().readVtk(path, options);
   default:
     return readWhole(openRecords(path, format, options), options.progress);
   }
@@ -101,7 +100,7 @@ saveDataset(const std::string& path, const Dataset& dataset, const SaveOptions& 
     else if (ending == ".ply")
       io::writePly(file, path, dataset, {}, options);
     else if (ending == ".vtp")
-      io::writeVtp(file, path, dataset, {});
+      io::vtkLibrary().writeVtp(file, path, dataset, {});
     else if (ending == ".vtkhdf")
       io::writeVtkHdf(file, path, dataset, {});
     else if (ending == ".npz")
@@ -123,7 +122,7 @@ checkSavePath(const std::string& path, const std::vector<pcl::PCLPointField>& fi
             "; points are written as .pcd, .ply, .vtp, .vtkhdf, .csv or .npz");
   io::checkWritable(path);
   if (ending == ".vtp")
-    io::checkVtpFields(path, fields);
+    io::vtkLibrary().checkVtpFields(path, fields);
 }
 
 } // namespace pcl_uvol

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "io/files.h"
+#include <pcl_uvol/common/export.h>
 
 #include <string>
 #include <string_view>
@@ -12,7 +13,7 @@ namespace io {
 
 /** \brief Takes bytes and lines of a file one after another; what is held in memory is
  * one block, or the longest line. */
-class FileCursor {
+class PCL_UVOL_EXPORTS FileCursor {
 public:
   /** Bytes that are zero belong to no text. */
   enum class Content { Any, Text };

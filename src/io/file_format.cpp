@@ -4,7 +4,7 @@
 #include "common/similar_words.h"
 #include "io/files.h"
 #include "io/formats.h"
-#include "io_vtk/hdf5_file.h"
+#include "io/hdf5_names.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>
@@ -39,6 +39,8 @@ constexpr struct {
 
 /** Grids, whose points are no samples but lattices, and whose cells may be. */
 constexpr const char* grid_endings[] = {".vti", ".vtr", ".pvti", ".pvtr"};
+
+constexpr const char* list_endings[] = {".pvd", ".vtm", ".pvtu", ".pvtp", ".pvts"};
 
 /** What usually makes a file that is read of one that is not. */
 constexpr struct {
@@ -121,6 +123,13 @@ describeEnding(const std::string& ending)
 {
   return ending.empty() ? "its name has no ending"
                         : "the ending " + quoteText(ending) + " is not known";
+}
+
+bool
+isFileList(const std::string& path)
+{
+  return std::find(std::begin(list_endings), std::end(list_endings), getEnding(path)) !=
+         std::end(list_endings);
 }
 
 std::vector<std::string>

@@ -21,11 +21,11 @@ namespace io {
 constexpr std::uint64_t deflate_expansion = 1032;
 
 /** \throws IOError "Cannot read 'path': reason." */
-[[noreturn]] void
+[[noreturn]] PCL_UVOL_EXPORTS void
 throwUnreadable(const std::string& path, const std::string& reason);
 
 /** \throws IOError "Cannot read 'path', line n: reason." */
-[[noreturn]] void
+[[noreturn]] PCL_UVOL_EXPORTS void
 throwUnreadable(const std::string& path, std::size_t line, const std::string& reason);
 
 /** \throws IOError "Cannot write 'path': reason." */
@@ -178,7 +178,7 @@ private:
 };
 
 /** \brief The words of a line between blanks and tabs. */
-void
+PCL_UVOL_EXPORTS void
 splitWords(std::string_view line, std::vector<std::string_view>& words);
 
 } // namespace io

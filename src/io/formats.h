@@ -4,6 +4,7 @@
 
 #include "common/records.h"
 #include <pcl_uvol/common/dataset.h>
+#include <pcl_uvol/common/export.h>
 #include <pcl_uvol/io/dataset.h>
 
 #include <memory>
@@ -110,6 +111,11 @@ struct CompressedInfo {
 std::optional<CompressedInfo>
 findCompressed(const std::string& path);
 
+/** \brief True for the endings of files that list others: .pvd, .vtm, .pvtu, .pvtp and
+ * .pvts. */
+PCL_UVOL_EXPORTS bool
+isFileList(const std::string& path);
+
 /** \brief The files that a .pvtp lists.
  * \throws IOError if it is none */
 std::vector<std::string>
@@ -163,15 +169,6 @@ isPlot3d(const std::string& path);
  * \throws IOError */
 bool
 isGadget(const std::string& path);
-
-/** \brief A file of HDF5 and what is named within it, as in file.h5:/group/x,y,z. */
-struct Hdf5Name {
-  std::string file;
-  std::string inside; ///< "": nothing
-};
-
-Hdf5Name
-splitHdf5Name(const std::string& path);
 
 /** Writers write to `file`, which exists; errors call it `path`. @{ */
 void

@@ -5,8 +5,8 @@
 #include "common/scalar_field.h"
 #include "io/column_source.h"
 #include "io/formats.h"
+#include "io/little_endian.h"
 #include "io/snapshot.h"
-#include "io_vtk/vtk_arrays.h"
 
 #include <pcl/PCLPointField.h>
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <pcl_uvol/common/dataset.h>
+#include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/map_projection.h>
 
 #include <functional>
@@ -26,7 +27,7 @@ using VisitGlobe =
  * \param visit is called twice
  * \param wanted what it says already is kept
  * \param latitude name of the field, for the note */
-MapProjection
+PCL_UVOL_EXPORTS MapProjection
 chooseMap(const VisitGlobe& visit,
           const MapProjection& wanted,
           const std::string& latitude,
@@ -34,7 +35,7 @@ chooseMap(const VisitGlobe& visit,
 
 /** \brief "Positions are mapped around 8.5 E, 42.5 S: x and y are metres to the east
  * and north". */
-std::string
+PCL_UVOL_EXPORTS std::string
 describeMap(const MapProjection& map);
 
 /** \brief Put points on a map by their fields of longitude and latitude, if they have

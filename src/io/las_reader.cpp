@@ -17,7 +17,7 @@ namespace {
 
 using Type = pcl::PCLPointField;
 
-constexpr std::size_t header_bytes = 227, long_header_bytes = 375;
+constexpr std::size_t las_header_bytes = 227, long_header_bytes = 375;
 constexpr std::size_t block_points = 4096;
 /** Bytes of a point by its format. */
 constexpr std::array<std::size_t, 11> format_bytes{
@@ -79,19 +79,19 @@ listAttributes(std::size_t format)
   return attributes;
 }
 
-struct Header {
+struct LasHeader {
   std::size_t format = 0, point_bytes = 0;
   std::uint64_t points = 0, offset = 0;
   std::array<double, 3> scale{}, shift{};
 };
 
-Header
+LasHeader
 readHeader(const InputFile& file, const std::string& path)
 {
   const std::string bytes = file.head(long_header_bytes);
   if (bytes.rfind("LASF", 0) != 0)
     throwUnreadable(path, "it is no LAS file: it does not begin with 'LASF'");
-  if (bytes.size() < header_bytes)
+  if (bytes.size() < las_header_bytes)
     throwUnreadable(path, "it is truncated: its header is not complete");
   const auto format = numberAt<std::uint8_t>(bytes, 104);
   const auto minor = numberAt<std::uint8_t>(bytes, 25);
@@ -107,7 +107,7 @@ readHeader(const InputFile& file, const std::string& path)
                         '.' + std::to_string(minor) +
                         "; formats 0 to 10 of LAS 1.0 to 1.4 are "
                         "read");
-  Header header;
+  LasHeader header;
   header.format = format;
   header.point_bytes = numberAt<std::uint16_t>(bytes, 105);
   header.offset = numberAt<std::uint32_t>(bytes, 96);
@@ -161,7 +161,7 @@ private:
   convert(const std::uint8_t* point, std::uint8_t* record) const;
 
   const InputFile file_;
-  const Header header_;
+  const LasHeader header_;
   const std::vector<Attribute> attributes_;
   std::vector<std::uint8_t> block_;
 };

@@ -6,6 +6,7 @@
 #include "io/globe_places.h"
 #include "io/mesh_readers.h"
 #include "io/record_source.h"
+#include "io/vtk_library.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset.h>
@@ -30,9 +31,10 @@ readMesh(const std::string& path)
   if (ending == ".stl")
     return readStl(path);
   if (ending == ".vtp")
-    return {readVtk(path, {}), readVtpTriangles(path)};
+    return {vtkLibrary().readVtk(path, {}), vtkLibrary().readVtpTriangles(path)};
   if (ending == ".vtkhdf")
-    return {readWhole(openHdf5(path, {}), {}), readVtkHdfTriangles(path)};
+    return {readWhole(vtkLibrary().openHdf5(path, {}), {}),
+            vtkLibrary().readVtkHdfTriangles(path)};
   if (InputFile(path).head(3) != "ply")
     throwUnreadable(
         path,
@@ -86,7 +88,7 @@ saveMesh(const std::string& path,
     if (ending == ".ply")
       io::writePly(file, path, vertices, triangles, options);
     else if (ending == ".vtp")
-      io::writeVtp(file, path, vertices, triangles);
+      io::vtkLibrary().writeVtp(file, path, vertices, triangles);
     else if (ending == ".vtkhdf")
       io::writeVtkHdf(file, path, vertices, triangles);
     else if (ending == ".obj")

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "io/formats.h"
+#include <pcl_uvol/common/export.h>
 
 #include <cstdint>
 #include <string>
@@ -32,7 +33,7 @@ readStl(const std::string& path);
 /** \brief Corners of the polygons of VTK's files.
  * \param ends of the polygons among their corners, one behind the other
  * \throws IOError unless they ascend */
-std::uint64_t
+PCL_UVOL_EXPORTS std::uint64_t
 countCorners(const std::string& path, const std::vector<double>& ends);
 
 /** \brief Append the fans of polygons whose corners were counted.
@@ -40,7 +41,7 @@ countCorners(const std::string& path, const std::vector<double>& ends);
  * \param points that there are
  * \param first number of these points among all
  * \throws IOError for a polygon that names a point that is not there */
-void
+PCL_UVOL_EXPORTS void
 addFans(const std::string& path,
         const std::vector<double>& ends,
         const std::vector<double>& corners,

@@ -49,7 +49,7 @@ parseDatatype(const std::string& name)
 }
 
 /** Takes lines of the form "field: value" up to an empty one. */
-class HeaderParser final : public VolumeHeader {
+class NrrdParser final : public VolumeHeader {
 public:
   using VolumeHeader::VolumeHeader;
 
@@ -73,7 +73,7 @@ private:
 };
 
 std::uint64_t
-HeaderParser::countIn(std::string_view value) const
+NrrdParser::countIn(std::string_view value) const
 {
   std::uint64_t count = 0;
   if (!parseCount(value, count))
@@ -83,7 +83,7 @@ HeaderParser::countIn(std::string_view value) const
 
 /** "(1,0,0) none (0,0,2)" */
 std::vector<Vector>
-HeaderParser::vectorsIn(std::string_view value) const
+NrrdParser::vectorsIn(std::string_view value) const
 {
   std::vector<Vector> vectors;
   while (!(value = trimmed(value)).empty()) {
@@ -109,7 +109,7 @@ HeaderParser::vectorsIn(std::string_view value) const
 }
 
 void
-HeaderParser::takeEncoding(const std::string& value)
+NrrdParser::takeEncoding(const std::string& value)
 {
   if (value == "raw")
     data_.encoding = VolumeData::Encoding::Raw;
@@ -123,7 +123,7 @@ HeaderParser::takeEncoding(const std::string& value)
 }
 
 void
-HeaderParser::take(const std::string& field, std::string_view value)
+NrrdParser::take(const std::string& field, std::string_view value)
 {
   if (field == "type") {
     data_.datatype = parseDatatype(std::string(value));
@@ -162,7 +162,7 @@ HeaderParser::take(const std::string& field, std::string_view value)
 }
 
 void
-HeaderParser::finish()
+NrrdParser::finish()
 {
   if (!has_sizes_ || data_.datatype == 0)
     throwUnreadable(path_, "its header lacks type or sizes");
@@ -185,7 +185,7 @@ HeaderParser::finish()
 }
 
 void
-HeaderParser::parse()
+NrrdParser::parse()
 {
   std::string_view line;
   if (!cursor_.nextLine(line) || line.substr(0, 4) != "NRRD")
@@ -214,13 +214,13 @@ HeaderParser::parse()
 Volume
 readNrrd(const std::string& path)
 {
-  return HeaderParser(path).read();
+  return NrrdParser(path).read();
 }
 
 std::vector<std::string>
 findNrrdFiles(const std::string& path)
 {
-  return HeaderParser(path).findFiles();
+  return NrrdParser(path).findFiles();
 }
 
 } // namespace io

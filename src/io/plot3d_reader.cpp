@@ -5,7 +5,7 @@
 #include "io/column_source.h"
 #include "io/files.h"
 #include "io/formats.h"
-#include "io_vtk/vtk_arrays.h"
+#include "io/little_endian.h"
 
 #include <pcl/PCLPointField.h>
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "common/point_source.h"
+#include <pcl_uvol/common/export.h>
 #include <pcl_uvol/io/dataset.h>
 
 #include <cstdint>

@@ -2,6 +2,8 @@
 // Which of several tables with names hold the coordinates.
 #pragma once
 
+#include <pcl_uvol/common/export.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -21,7 +23,7 @@ struct NumberTable {
 
 /** \brief The table of positions, three numbers a row, or the three tables of x, y and
  * z of one length, by usual names; none if they are not there. */
-std::vector<std::size_t>
+PCL_UVOL_EXPORTS std::vector<std::size_t>
 findPositionTables(const std::vector<NumberTable>& tables);
 
 /** \brief "x, y, z or Coordinates, positions, pos". */

@@ -8,6 +8,7 @@
 #include "io/files.h"
 #include "io/formats.h"
 #include "io/point_stream.h"
+#include "io/vtk_library.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>
@@ -383,7 +384,7 @@ findOldPieces(const std::string& path, std::size_t ranks)
 {
   std::vector<std::string> old;
   try {
-    const std::vector<std::string> listed = io::readPieceList(path);
+    const std::vector<std::string> listed = io::vtkLibrary().readPieceList(path);
     for (std::size_t rank = ranks; rank < listed.size(); ++rank)
       if (const std::string piece = pieceName(path, rank);
           std::find(listed.begin(), listed.end(), piece) != listed.end())
@@ -408,7 +409,7 @@ findPieces(const std::vector<std::string>& paths)
     for (const std::string& name :
          is_pattern ? matching(path) : std::vector<std::string>{path})
       if (io::getEnding(name) == ".pvtp")
-        for (const std::string& piece : io::readPieceList(name))
+        for (const std::string& piece : io::vtkLibrary().readPieceList(name))
           pieces.push_back(piece);
       else
         pieces.push_back(name);
@@ -455,7 +456,7 @@ savePieces(const std::string& path, const Dataset& part, Communicator& communica
   bool is_there = false;
   try {
     writeAtomically(own, [&](const std::string& file) {
-      io::writeVtp(file, own, part, {});
+      io::vtkLibrary().writeVtp(file, own, part, {});
       communicator.barrier(); // whoever cannot write keeps all from taking their places
     });
     is_there = true;
@@ -463,7 +464,7 @@ savePieces(const std::string& path, const Dataset& part, Communicator& communica
     if (communicator.rank() == 0) {
       const std::vector<std::string> old = findOldPieces(path, communicator.size());
       writeAtomically(path, [&](const std::string& file) {
-        io::writePieceList(file, path, part, pieces);
+        io::vtkLibrary().writePieceList(file, path, part, pieces);
       });
       for (const std::string& piece : old)
         ::unlink(piece.c_str());

@@ -4,7 +4,7 @@
 
 #include "common/scalar_field.h"
 #include "io/formats.h"
-#include "io_vtk/vtk_arrays.h"
+#include "io/little_endian.h"
 
 #include <algorithm>
 

@@ -2,6 +2,8 @@
 // Kinds of particles in snapshots, under the names that options give them.
 #pragma once
 
+#include <pcl_uvol/common/export.h>
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -21,14 +23,14 @@ struct ParticleKind {
 
 /** \brief Gadget's six kinds: gas, dm, disk, bulge, stars, bh.
  * \param counts by number */
-std::vector<ParticleKind>
+PCL_UVOL_EXPORTS std::vector<ParticleKind>
 listGadgetKinds(const std::vector<std::uint64_t>& counts);
 
 /** \brief The number of the kind that was chosen by its name or number; "": gas, or the
  * first that has particles.
  * \param notes tell of the kinds left out unless one was chosen
  * \throws IOError that lists the kinds there are, for one that is not */
-std::size_t
+PCL_UVOL_EXPORTS std::size_t
 chooseKind(const std::string& path,
            const std::vector<ParticleKind>& kinds,
            const std::string& chosen,
@@ -38,7 +40,7 @@ chooseKind(const std::string& path,
  * snap_005.3 or snap_005.3.hdf5.
  * \param count of them
  * \throws IOError for one that is not there */
-std::vector<std::string>
+PCL_UVOL_EXPORTS std::vector<std::string>
 listSnapshotFiles(const std::string& path, std::size_t count);
 
 /** \brief What the header of a cosmological snapshot tells. */
@@ -49,11 +51,11 @@ struct CosmologyHeader {
 
 /** \brief The sides of a box, of one number for all of them, or of three; 0 where
  * they are none. */
-std::array<double, 3>
+PCL_UVOL_EXPORTS std::array<double, 3>
 toBox(const std::vector<double>& sides);
 
 /** \brief A sentence on comoving units. */
-void
+PCL_UVOL_EXPORTS void
 noteHeader(const CosmologyHeader& header, std::vector<std::string>& notes);
 
 } // namespace io

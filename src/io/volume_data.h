@@ -2,6 +2,7 @@
 // The numbers of volumes whose headers are lines of text: MetaImage and NRRD.
 #pragma once
 
+#include <pcl_uvol/common/export.h>
 #include <pcl_uvol/io/dataset.h>
 
 #include <array>
@@ -79,7 +80,7 @@ std::vector<std::string>
 findVolumeFiles(const std::string& path);
 
 /** \throws IOError that says what to do with axes that are not x, y and z */
-[[noreturn]] void
+[[noreturn]] PCL_UVOL_EXPORTS void
 throwOblique(const std::string& path);
 
 } // namespace io

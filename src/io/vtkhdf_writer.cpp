@@ -3,9 +3,9 @@
 // polygons, not packed.
 #include "io/columns.h"
 #include "io/formats.h"
+#include "io/hdf5_names.h"
 #include "io/hdf5_writer.h"
 #include "io/little_endian.h"
-#include "io_vtk/hdf5_group.h"
 
 #include <pcl/PCLPointField.h>
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "io/file_cursor.h"
+#include <pcl_uvol/common/export.h>
 
 #include <string>
 #include <string_view>
@@ -14,7 +15,7 @@ namespace pcl_uvol {
 namespace io {
 
 /** \brief <name a="1">, </name> or <name/>. */
-struct XmlTag {
+struct PCL_UVOL_EXPORTS XmlTag {
   std::string name;
   bool closes = false; ///< </name>
   bool empty = false;  ///< <name/>
@@ -31,7 +32,7 @@ struct XmlTag {
 };
 
 /** \brief Reads tags; they have to be nested properly, at most 100 deep. */
-class XmlScanner {
+class PCL_UVOL_EXPORTS XmlScanner {
 public:
   explicit XmlScanner(const std::string& path,
                       FileCursor::Content content = FileCursor::Content::Any)

@@ -3,6 +3,7 @@
 
 #include "common/printable.h"
 #include "common/scalar_field.h"
+#include "io/little_endian.h"
 #include "io_vtk/vtk_arrays.h"
 
 #include <pcl/PCLPointField.h>

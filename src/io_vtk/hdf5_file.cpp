@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/printable.h"
 #include "common/scalar_field.h"
+#include "io/hdf5_names.h"
 #include "io_vtk/hdf5_column.h"
 
 #include <algorithm>
@@ -77,12 +78,6 @@ readShape(hid_t dataset)
 }
 
 } // namespace
-
-bool
-isHdf5(const std::string& path)
-{
-  return InputFile(path).head(8) == "\x89HDF\r\n\x1a\n";
-}
 
 Hdf5File::Hdf5File(const std::string& path)
     : path_(path)

@@ -67,10 +67,5 @@ private:
   std::shared_ptr<const std::int64_t> file_;
 };
 
-/** \brief True if the file begins as those of HDF5 do.
- * \throws IOError */
-bool
-isHdf5(const std::string& path);
-
 } // namespace io
 } // namespace pcl_uvol

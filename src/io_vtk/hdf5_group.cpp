@@ -2,18 +2,13 @@
 #include "io_vtk/hdf5_group.h"
 
 #include "common/printable.h"
+#include "io/hdf5_names.h"
 #include "io/position_tables.h"
 
 #include <algorithm>
 
 namespace pcl_uvol {
 namespace io {
-
-std::string
-joinNames(const std::string& group, const std::string& name)
-{
-  return (group == "/" ? "" : group) + '/' + name;
-}
 
 void
 Hdf5Group::add(const std::vector<std::string>& names,

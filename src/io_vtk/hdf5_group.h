@@ -11,10 +11,6 @@
 namespace pcl_uvol {
 namespace io {
 
-/** \brief The name of something in a group. */
-std::string
-joinNames(const std::string& group, const std::string& name);
-
 /** \brief The columns of the tables in a group. */
 class Hdf5Group {
 public:
@@ -79,9 +75,6 @@ private:
  * \throws IOError */
 std::unique_ptr<RecordSource>
 openPhantom(const Hdf5File& file, const std::string& particles);
-
-/** \brief The group that files of VTKHDF hold. */
-extern const char* const vtkhdf_group;
 
 /** \brief The points of a group of VTKHDF with their data; null for a group that says
  * no type of VTK.

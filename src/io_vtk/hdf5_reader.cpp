@@ -3,6 +3,7 @@
 // tables of the same length.
 #include "common/printable.h"
 #include "io/formats.h"
+#include "io/hdf5_names.h"
 #include "io/position_tables.h"
 #include "io/snapshot.h"
 #include "io_vtk/hdf5_group.h"
@@ -204,17 +205,6 @@ openInside(const Hdf5File& file, const std::string& inside)
 }
 
 } // namespace
-
-Hdf5Name
-splitHdf5Name(const std::string& path)
-{
-  const std::size_t colon = path.find(":/");
-  std::error_code ignored; // of names that no file can have
-  if (colon == std::string::npos ||
-      !std::filesystem::is_regular_file(path.substr(0, colon), ignored))
-    return {path, ""};
-  return {path.substr(0, colon), path.substr(colon + 1)};
-}
 
 std::unique_ptr<RecordSource>
 openHdf5(const std::string& path, const LoadOptions& options)

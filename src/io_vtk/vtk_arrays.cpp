@@ -109,13 +109,6 @@ bytesOf(vtkDataArray& array)
 }
 
 void
-swapBytes(std::uint8_t* bytes, std::size_t size, std::uint64_t count)
-{
-  for (std::uint64_t i = 0; i < count && size > 1; ++i, bytes += size)
-    std::reverse(bytes, bytes + size);
-}
-
-void
 readTexts(const std::string& path,
           FileCursor& cursor,
           std::uint64_t end,

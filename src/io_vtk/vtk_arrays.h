@@ -42,10 +42,6 @@ makeArray(const VtkType& type,
 std::uint8_t*
 bytesOf(vtkDataArray& array);
 
-/** \brief Turn the bytes of numbers around. */
-void
-swapBytes(std::uint8_t* bytes, std::size_t size, std::uint64_t count);
-
 /** \brief Read numbers as text.
  * \param end of the text in the file
  * \throws IOError for what is no number, and for fewer */

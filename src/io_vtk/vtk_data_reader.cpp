@@ -7,6 +7,7 @@
 #include "io/volume_data.h"
 #include "io/xml_scanner.h"
 #include "io_vtk/child_process.h"
+#include "io_vtk/entries.h"
 #include "io_vtk/vtk_messages.h"
 #include <pcl_uvol/io/dataset.h>
 
@@ -38,7 +39,6 @@ namespace {
 constexpr const char* exodus_endings[] = {".ex2", ".exo", ".e", ".exii"};
 /** Adaptive meshes and octrees, whose data are those of cells. */
 constexpr const char* cell_endings[] = {".vthb", ".htg"};
-constexpr const char* list_endings[] = {".pvd", ".vtm", ".pvtu", ".pvtp", ".pvts"};
 /** Lists may name lists, but not without end, nor one another again and again. */
 constexpr std::size_t most_open_lists = 8, most_lists = 1000;
 
@@ -293,20 +293,6 @@ addNames(const std::string& path,
   }
 }
 
-std::vector<std::string>
-findNames(const std::string& path)
-{
-  std::vector<std::string> files;
-  std::set<std::string> lists;
-  try {
-    addNames(path, files, lists);
-  }
-  catch (const IOError&) {
-    // Whoever reads the list tells what is wrong with it.
-  }
-  return files;
-}
-
 } // namespace
 
 bool
@@ -336,10 +322,18 @@ readByVtk(const std::string& path, DataPlace place)
   return content;
 }
 
-bool
-isFileList(const std::string& path)
+std::vector<std::string>
+findListedFiles(const std::string& path)
 {
-  return isAmong(list_endings, getEnding(path));
+  std::vector<std::string> files;
+  std::set<std::string> lists;
+  try {
+    addNames(path, files, lists);
+  }
+  catch (const IOError&) {
+    // Whoever reads the list tells what is wrong with it.
+  }
+  return files;
 }
 
 VtkContent
@@ -388,11 +382,5 @@ readSolidCells(const std::string& path)
 }
 
 } // namespace io
-
-std::vector<std::string>
-listNamedFiles(const std::string& path)
-{
-  return io::isFileList(path) ? io::findNames(path) : io::findVolumeFiles(path);
-}
 
 } // namespace pcl_uvol

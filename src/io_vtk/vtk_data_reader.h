@@ -38,11 +38,6 @@ readByVtk(const std::string& path, DataPlace place);
 SolidCells
 readSolidCells(const std::string& path);
 
-/** \brief True for the endings of files that list others: .pvd, .vtm, .pvtu, .pvtp and
- * .pvts. */
-bool
-isFileList(const std::string& path);
-
 /** \brief The points of all files that a list names, with the fields that all of them
  * have; of a series over time those of the first time.
  *

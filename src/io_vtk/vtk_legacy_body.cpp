@@ -5,6 +5,7 @@
 #include "common/printable.h"
 #include "common/scalar_field.h"
 #include "io/formats.h"
+#include "io/little_endian.h"
 
 #include <limits>
 

@@ -4,6 +4,7 @@
 #include "common/printable.h"
 #include "common/scalar_field.h"
 #include "io/formats.h"
+#include "io/little_endian.h"
 #include "io/mesh_readers.h"
 #include "io_vtk/encoded_bytes.h"
 #include "io_vtk/vtk_messages.h"

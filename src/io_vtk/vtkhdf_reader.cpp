@@ -3,6 +3,7 @@
 // "VTKHDF format specification", versions 1.0 to 2.x).
 #include "common/printable.h"
 #include "common/records.h"
+#include "io/hdf5_names.h"
 #include "io/mesh_readers.h"
 #include "io/position_tables.h"
 #include "io_vtk/hdf5_group.h"
@@ -16,8 +17,6 @@
 
 namespace pcl_uvol {
 namespace io {
-
-const char* const vtkhdf_group = "/VTKHDF";
 
 namespace {
 

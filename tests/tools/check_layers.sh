@@ -8,7 +8,7 @@ cd "$1"
 declare -A level=([common]=0 [generation]=1 [neighbors]=1 [distributed]=2 [derivatives]=2
   [interpolation]=3 [isosurface]=4 [levelset]=5 [mesh]=5 [surface]=5 [multivariate]=5 [render]=6 [pipeline]=7
   [expressions]=7
-  [filters]=8 [io]=9 [gl]=10 [vtk]=11 [mpi]=11)
+  [filters]=8 [io]=8 [io_vtk]=9 [gl]=10 [vtk]=11 [mpi]=11)
 breaches=0
 report() {
   echo "$1"

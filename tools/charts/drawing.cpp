@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "charts/drawing.h"
 
-#include "io_vtk/vtk_messages.h"
+#include "io/vtk_library.h"
 #include <pcl_uvol/render/color_map.h>
-
-#include <vtkFreeTypeTools.h>
-#include <vtkImageData.h>
-#include <vtkStdString.h>
-#include <vtkTextProperty.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <mutex>
 
 namespace uvol_tools {
 
@@ -69,44 +63,17 @@ inkOn(const Image& image)
 
 namespace {
 
-/** A line of text as opacities. */
-struct Letters {
-  int width = 0, height = 0;
-  vtkNew<vtkImageData> image;
-
-  Letters(const std::string& text, int size)
-  {
-    vtkNew<vtkTextProperty> font;
-    font->SetFontSize(size);
-    font->SetFontFamilyToArial();
-    font->SetColor(1.0, 1.0, 1.0);
-    int extent[2];
-    constexpr int dpi = 72;
-    // VTK's letters are those of one object, which serves one caller at a time.
-    static std::mutex only_one;
-    const std::lock_guard<std::mutex> lock(only_one);
-    const pcl_uvol::io::VtkMessages messages;
-    if (!vtkFreeTypeTools::GetInstance()->RenderString(
-            font, vtkStdString(text), dpi, image, extent))
-      return;
-    width = extent[0];
-    height = extent[1];
-  }
-
-  /** Call set(along, above, opacity) with pixels from the text's left end, and from the
-   * middle of its height. */
-  template <typename Set>
-  void
-  forEach(const Set& set) const
-  {
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x) {
-        const auto* const letter = static_cast<const std::uint8_t*>(
-            image.GetPointer()->GetScalarPointer(x, y, 0));
-        set(x, y - height / 2, letter[3] / 255.0);
-      }
-  }
-};
+/** Call set(along, above, opacity) with pixels from the text's left end, and from the
+ * middle of its height. */
+template <typename Set>
+void
+forEachPixel(const pcl_uvol::io::Letters& letters, const Set& set)
+{
+  std::size_t pixel = 0;
+  for (int y = 0; y < letters.height; ++y)
+    for (int x = 0; x < letters.width; ++x)
+      set(x, y - letters.height / 2, letters.opacities[pixel++] / 255.0);
+}
 
 thread_local TextKeeper* current_keeper = nullptr;
 
@@ -135,7 +102,7 @@ TextKeeper::keep(const TextLine& line)
 int
 measureText(const std::string& text, int size)
 {
-  return Letters(text, size).width;
+  return pcl_uvol::io::vtkLibrary().drawLetters(text, size).width;
 }
 
 Eigen::AlignedBox2d
@@ -164,13 +131,13 @@ writeText(Image& image,
           TextAnchor anchor,
           const Ink& ink)
 {
-  const Letters letters(text, size);
+  const auto letters = pcl_uvol::io::vtkLibrary().drawLetters(text, size);
   if (TextKeeper::keep({text, size, column, row, anchor, false, ink}))
     return letters.width;
   const int left = column - (anchor == TextAnchor::Left     ? 0
                              : anchor == TextAnchor::Center ? letters.width / 2
                                                             : letters.width);
-  letters.forEach([&](int along, int above, double opacity) {
+  forEachPixel(letters, [&](int along, int above, double opacity) {
     blend(image, left + along, row - above, ink, opacity);
   });
   return letters.width;
@@ -186,9 +153,9 @@ writeUpwards(Image& image,
 {
   if (TextKeeper::keep({text, size, column, row, TextAnchor::Center, true, ink}))
     return;
-  const Letters letters(text, size);
+  const auto letters = pcl_uvol::io::vtkLibrary().drawLetters(text, size);
   const int start = row + letters.width / 2;
-  letters.forEach([&](int along, int above, double opacity) {
+  forEachPixel(letters, [&](int along, int above, double opacity) {
     blend(image, column - above, start - along, ink, opacity);
   });
 }

@@ -5,8 +5,6 @@
 #include "io/files.h"
 #include <pcl_uvol/io/dataset.h>
 
-#include <vtkBase64Utilities.h>
-
 #include <fstream>
 #include <sstream>
 
@@ -119,10 +117,18 @@ makeSvg(const Image& image,
 std::string
 encodeBase64(const void* bytes, std::size_t count)
 {
-  std::string text(4 * ((count + 2) / 3), '\0');
-  vtkBase64Utilities::Encode(static_cast<const unsigned char*>(bytes),
-                             count,
-                             reinterpret_cast<unsigned char*>(text.data()));
+  constexpr const char* digits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  const auto* const from = static_cast<const unsigned char*>(bytes);
+  std::string text;
+  text.reserve((count + 2) / 3 * 4);
+  for (std::size_t i = 0; i < count; i += 3) {
+    unsigned group = 0;
+    for (std::size_t k = i; k < i + 3; ++k)
+      group = group << 8 | (k < count ? from[k] : 0u);
+    for (std::size_t k = 0; k < 4; ++k)
+      text += i + k <= count ? digits[group >> (18 - 6 * k) & 63] : '=';
+  }
   return text;
 }
 

@@ -7,7 +7,6 @@
 #include <pcl_uvol/io/dataset.h>
 
 #include <pcl/console/print.h>
-#include <vtkLogger.h>
 
 #include <csignal>
 #include <iostream>
@@ -43,8 +42,7 @@ withFile(const std::string& sentence)
 Outcome
 catchErrors(const char* tool, const std::function<int()>& body)
 {
-  // What VTK and PCL would tell of errors, the sentence of the error tells.
-  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
+  // What PCL would tell of errors, the sentence of the error tells.
   pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
   // Writing beyond a limit or into a closed pipe shall be an error, not a sudden death.
   std::signal(SIGXFSZ, SIG_IGN);

@@ -2,13 +2,8 @@
 // Volumes, turned so that all axes ascend.
 #include "io/files.h"
 #include "io/volume_data.h"
-#include "io_vtk/vtk_readers.h"
+#include "io/vtk_library.h"
 #include <pcl_uvol/io/dataset.h>
-
-#include <vtkDataArray.h>
-#include <vtkImageData.h>
-#include <vtkMatrix3x3.h>
-#include <vtkPointData.h>
 
 #include <algorithm>
 #include <cmath>
@@ -38,35 +33,6 @@ makeAscending(const std::string& path, Volume& volume)
   }
 }
 
-Volume
-makeVolume(const std::string& path, vtkImageData& image)
-{
-  vtkPointData* const data = image.GetPointData();
-  vtkDataArray* const scalars =
-      data->GetScalars() != nullptr ? data->GetScalars() : data->GetArray(0);
-  if (scalars == nullptr || scalars->GetNumberOfComponents() != 1 ||
-      scalars->GetNumberOfTuples() == 0 ||
-      scalars->GetNumberOfTuples() != image.GetNumberOfPoints())
-    io::throwUnreadable(path, "it holds no volume of one number per point");
-  if (!image.GetDirectionMatrix()->IsIdentity())
-    io::throwOblique(path);
-  Volume volume;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto a = static_cast<std::size_t>(axis);
-    volume.dims[a] = static_cast<std::size_t>(image.GetDimensions()[axis]);
-    volume.spacing[a] = image.GetSpacing()[axis];
-    volume.origin[a] = image.GetOrigin()[axis] +
-                       image.GetExtent()[2 * axis] * image.GetSpacing()[axis];
-  }
-  volume.values.resize(static_cast<std::size_t>(scalars->GetNumberOfTuples()));
-  for (std::size_t i = 0; i < volume.values.size(); ++i)
-    volume.values[i] =
-        static_cast<float>(scalars->GetTuple1(static_cast<vtkIdType>(i)));
-  if (scalars->GetName() != nullptr)
-    volume.name = scalars->GetName();
-  return volume;
-}
-
 bool
 isNrrd(const std::string& ending)
 {
@@ -89,24 +55,7 @@ readVolume(const std::string& path, const std::string& ending)
   if (ending != ".vti" && ending != ".vtk")
     io::throwUnreadable(
         path, "volumes are read from .nrrd, .nhdr, .vti, .mha, .mhd and .vtk");
-  const auto content =
-      ending == ".vti" ? io::readVtkXml(path) : io::readVtkLegacy(path);
-  auto* const image = vtkImageData::SafeDownCast(content.data);
-  if (!image)
-    io::throwUnreadable(path, "it holds no volume but points");
-  return makeVolume(path, *image);
-}
-
-bool
-isStructuredPoints(const std::string& path)
-{
-  try {
-    return io::findLegacyKind(path) == "structured_points";
-  }
-  catch (const IOError&) {
-    const io::InputFile exists(path);
-    return false; // what is wrong with it, reading says
-  }
+  return io::vtkLibrary().readImage(path);
 }
 
 } // namespace
@@ -162,12 +111,19 @@ io::findVolumeFiles(const std::string& path)
   return {};
 }
 
+std::vector<std::string>
+listNamedFiles(const std::string& path)
+{
+  return io::isFileList(path) ? io::vtkLibrary().findListedFiles(path)
+                              : io::findVolumeFiles(path);
+}
+
 bool
 isVolumeFile(const std::string& path)
 {
   const std::string ending = io::getEnding(path);
   return isNrrd(ending) || isMetaImage(ending) || ending == ".vti" ||
-         (ending == ".vtk" && isStructuredPoints(path));
+         (ending == ".vtk" && io::vtkLibrary().holdsImage(path));
 }
 
 Volume

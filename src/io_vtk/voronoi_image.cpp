@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "io/grid_file.h"
-
-#include "io/files.h"
+#include "io_vtk/entries.h"
 #include "io_vtk/vtk_messages.h"
-#include <pcl_uvol/io/dataset.h>
 
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
@@ -15,7 +12,7 @@
 #include <algorithm>
 
 namespace pcl_uvol {
-
+namespace io {
 namespace {
 
 /** \param values distances, which the image refers to */
@@ -52,28 +49,19 @@ fillImage(const VoronoiGrid& grid,
 } // namespace
 
 void
-saveVoronoiGrid(const std::string& path,
-                const VoronoiGrid& grid,
-                const std::array<double, 3>& origin,
-                unsigned threads)
+writeVoronoiGrid(const std::string& file,
+                 const std::string& path,
+                 const VoronoiGrid& grid,
+                 const std::array<double, 3>& origin,
+                 unsigned threads)
 {
-  checkGridPath(path);
   std::vector<float> distances = grid.computeDistances(threads); // outlives the image
   vtkNew<vtkImageData> image;
   fillImage(grid, origin, distances, image);
-  writeAtomically(path, [&](const std::string& file) {
-    vtkNew<vtkXMLImageDataWriter> writer;
-    writer->SetInputData(image);
-    io::writeXml(*writer, file, path);
-  });
+  vtkNew<vtkXMLImageDataWriter> writer;
+  writer->SetInputData(image);
+  writeXml(*writer, file, path);
 }
 
-void
-checkGridPath(const std::string& path)
-{
-  if (io::getEnding(path) != ".vti")
-    io::throwUnwritable(path, "grids are written as .vti");
-  io::checkWritable(path);
-}
-
+} // namespace io
 } // namespace pcl_uvol

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/vtk_library.h"
+
+#include <dlfcn.h>
+
+namespace pcl_uvol {
+namespace io {
+namespace {
+
+/** It is never unloaded: VTK's objects refer to it until the program ends. */
+const VtkLibrary&
+loadLibrary()
+{
+  void* const library =
+      dlopen(PCL_UVOL_VTK_LIBRARY, RTLD_LAZY | RTLD_LOCAL | RTLD_NODELETE);
+  const void* const functions =
+      library == nullptr ? nullptr : dlsym(library, "pcl_uvol_vtk_library");
+  if (functions == nullptr)
+    throw IOError(std::string("The library for VTK, HDF5, NetCDF and text in pictures "
+                              "could not be loaded: ") +
+                  dlerror() +
+                  ". Install " PCL_UVOL_VTK_LIBRARY " beside libpcl_uvol_io.so.");
+  return *static_cast<const VtkLibrary*>(functions);
+}
+
+} // namespace
+
+const VtkLibrary&
+vtkLibrary()
+{
+  static const VtkLibrary& library = loadLibrary();
+  return library;
+}
+
+} // namespace io
+} // namespace pcl_uvol
