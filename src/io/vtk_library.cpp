@@ -16,10 +16,9 @@ loadLibrary()
   const void* const functions =
       library == nullptr ? nullptr : dlsym(library, "pcl_uvol_vtk_library");
   if (functions == nullptr)
-    throw IOError(std::string("The library for VTK, HDF5, NetCDF and text in pictures "
-                              "could not be loaded: ") +
-                  dlerror() +
-                  ". Install " PCL_UVOL_VTK_LIBRARY " beside libpcl_uvol_io.so.");
+    throw IOError("The library for VTK, HDF5, NetCDF and text in pictures could not be "
+                  "loaded: it is not beside libpcl_uvol_io.so, or there is not enough "
+                  "memory.");
   return *static_cast<const VtkLibrary*>(functions);
 }
 

@@ -5,8 +5,8 @@
 //   CALL:N       the N-th call of CALL fails; with N+ that one and all that follow
 //   CALL:N:S     signal S arrives at the N-th call of CALL
 //   count=FILE   at the end the number of calls of each kind is written to FILE
-// CALL is one of those below. Calls are counted while main runs: what is loaded before
-// is not a tool's.
+// CALL is one of those below. Calls are counted while main runs: what is loaded before,
+// and what dlopen() loads, is not a tool's.
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -194,6 +194,32 @@ int
 linkat(int from_folder, const char* from, int to_folder, const char* to, int flags)
 {
   return meets(LINKAT) ? -1 : NEXT(linkat)(from_folder, from, to_folder, to, flags);
+}
+
+/** The path is that of the caller's folder: the search would begin at this library. */
+void*
+dlopen(const char* file, int mode)
+{
+  char path[4096];
+  Dl_info caller;
+  if (file != NULL && strchr(file, '/') == NULL &&
+      dladdr(__builtin_return_address(0), &caller) != 0) {
+    const char* const slash = strrchr(caller.dli_fname, '/');
+    if (slash != NULL) {
+      snprintf(path,
+               sizeof path,
+               "%.*s/%s",
+               (int)(slash - caller.dli_fname),
+               caller.dli_fname,
+               file);
+      if (access(path, R_OK) == 0)
+        file = path;
+    }
+  }
+  const int was_running = atomic_exchange(&is_running, 0);
+  void* const library = NEXT(dlopen)(file, mode);
+  atomic_store(&is_running, was_running);
+  return library;
 }
 
 // dlsym allocates: what allocates has to be known without it.
