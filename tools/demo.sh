@@ -10,7 +10,7 @@ cat <<'EOF'
 This demo has three steps. Times are those of two cores; more cores build faster.
   1. Install Debian packages that are missing (several minutes if none are there).
   2. Build the six tools that it runs, in build/release (about 8 minutes the first time).
-  3. Extract, measure and draw surfaces from a million samples that it generates (about 20 seconds).
+  3. Extract, measure and draw surfaces from a million samples that it generates (about 15 seconds).
 It ends with a page that shows the pictures, the reports and the commands.
 
 EOF

@@ -5,6 +5,8 @@
 #include "io/files.h"
 #include "io/formats.h"
 #include "io/hdf5_names.h"
+#include "io/volume_data.h"
+#include "io/vtk_library.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>
@@ -191,4 +193,12 @@ adaptOptions(const std::string& path, LoadOptions options)
 }
 
 } // namespace io
+
+std::vector<std::string>
+listNamedFiles(const std::string& path)
+{
+  return io::isFileList(path) ? io::vtkLibrary().findListedFiles(path)
+                              : io::findVolumeFiles(path);
+}
+
 } // namespace pcl_uvol

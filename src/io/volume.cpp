@@ -111,13 +111,6 @@ io::findVolumeFiles(const std::string& path)
   return {};
 }
 
-std::vector<std::string>
-listNamedFiles(const std::string& path)
-{
-  return io::isFileList(path) ? io::vtkLibrary().findListedFiles(path)
-                              : io::findVolumeFiles(path);
-}
-
 bool
 isVolumeFile(const std::string& path)
 {

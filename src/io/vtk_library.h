@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What needs VTK, HDF5 or NetCDF (src/io_vtk). It is a library of its own, which is
-// loaded when it is called for the first time: 70 of the 110 libraries of a tool come
-// with it, and two thirds of the time that the tool takes to start.
+// loaded when it is called for the first time: with it a tool loads 116 libraries
+// instead of 36, and takes 0.09 s to start instead of 0.02 (uvol_info -h, user and
+// system time).
 #pragma once
 
 #include "interpolation/sample_cells.h"
@@ -23,9 +24,8 @@ struct Letters {
   std::vector<std::uint8_t> opacities;
 };
 
-/** \brief The functions of the library; those of formats.h are described there. Some
- * may take only part of the work: what a name says of a file, callers find out before.
- */
+/** \brief The functions of the library. Those of formats.h are described there. Callers
+ * have checked the ending of the name, and that a file to be written can be created. */
 struct VtkLibrary {
   decltype(&io::openHdf5) openHdf5;
   decltype(&io::openNetcdf)

@@ -64,45 +64,35 @@ findUsualSide(const CloudView& cloud, const std::vector<std::uint32_t>& points)
   return *std::max_element(sides.begin(), sides.end());
 }
 
-/** A cell of the kd-tree with that many points at most: halves at random.
- * \param points brought into another order */
-std::vector<std::uint32_t>
+/** Points around one of them: the nearest, and of these the nearest ones, ascending. */
+struct Patch {
+  std::vector<std::uint32_t> points, inner;
+};
+
+/** A ball, whose inner points are far from its rim on every layer of the surface.
+ * \param points finite ones, brought into another order
+ * \param most points of the patch */
+Patch
 takePatch(const CloudView& cloud,
           std::vector<std::uint32_t>& points,
           std::size_t most,
           std::uint64_t seed)
 {
-  auto first = points.begin(), last = points.end();
-  for (int depth = 0; last - first > static_cast<std::ptrdiff_t>(most); ++depth) {
-    const auto middle = first + (last - first) / 2;
-    const int axis = depth % 3;
-    std::nth_element(first, middle, last, [&](auto a, auto b) {
-      return cloud.xyz(a)[axis] < cloud.xyz(b)[axis];
-    });
-    const bool takes_lower = (mixBits(seed) >> depth & 1u) != 0;
-    (takes_lower ? last : first) = middle;
-  }
-  return {first, last};
-}
-
-/** Points in the middle of a patch, ascending. */
-std::vector<std::uint32_t>
-findInnerPoints(const CloudView& cloud, std::vector<std::uint32_t> patch)
-{
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   const auto at = [&](std::uint32_t i) -> Eigen::Vector3d {
     return Eigen::Vector3f(cloud.xyz(i)).cast<double>();
   };
-  for (const std::uint32_t point : patch)
-    sum += at(point);
-  const Eigen::Vector3d middle = sum / static_cast<double>(patch.size());
-  const auto end =
-      patch.begin() + static_cast<std::ptrdiff_t>(patch.size() / inner_part);
-  std::nth_element(patch.begin(), end, patch.end(), [&](auto a, auto b) {
-    return (at(a) - middle).squaredNorm() < (at(b) - middle).squaredNorm();
-  });
-  patch.erase(end, patch.end());
-  std::sort(patch.begin(), patch.end());
+  const Eigen::Vector3d middle = at(points[mixBits(seed) % points.size()]);
+  const auto take_nearest = [&](std::vector<std::uint32_t>& from, std::size_t count) {
+    const auto end = from.begin() + static_cast<std::ptrdiff_t>(count);
+    std::nth_element(from.begin(), end, from.end(), [&](auto a, auto b) {
+      return (at(a) - middle).squaredNorm() < (at(b) - middle).squaredNorm();
+    });
+    return std::vector<std::uint32_t>(from.begin(), end);
+  };
+  Patch patch;
+  patch.points = take_nearest(points, std::min(most, points.size()));
+  patch.inner = take_nearest(patch.points, patch.points.size() / inner_part);
+  std::sort(patch.inner.begin(), patch.inner.end());
   return patch;
 }
 
@@ -129,9 +119,9 @@ estimateSplats(const CloudView& cloud,
 {
   const std::size_t most =
       std::min(patch_points, cloud.count / (patches * patches_part));
-  if (most < fewest_points)
-    return usual_splats;
   std::vector<std::uint32_t> finite = findFinite(cloud);
+  if (std::min(most, finite.size()) < fewest_points)
+    return usual_splats;
   SplatParameters of_patch = parameters;
   if (!parameters.delta_is_length)
     of_patch.delta = parameters.delta * findUsualSide(cloud, finite);
@@ -142,12 +132,11 @@ estimateSplats(const CloudView& cloud,
     try {
       Report ignored;
       const auto grown =
-          detail::generateSplats(cloud, patch, of_patch, threads, ignored);
-      const auto inner = findInnerPoints(cloud, patch);
-      points += inner.size();
+          detail::generateSplats(cloud, patch.points, of_patch, threads, ignored);
+      points += patch.inner.size();
       splats += static_cast<std::size_t>(std::count_if(
           grown.sources.begin(), grown.sources.end(), [&](std::uint32_t source) {
-            return std::binary_search(inner.begin(), inner.end(), source);
+            return std::binary_search(patch.inner.begin(), patch.inner.end(), source);
           }));
     }
     catch (const InvalidArgument&) {

@@ -136,6 +136,11 @@ TEST_F(PictureFiles, OtherEndingsAndFoldersAreRefused)
     }
   EXPECT_THROW(checkPicturePath(folder_ / "missing/a.svg"), pcl_uvol::IOError);
   EXPECT_THROW(checkPicturePath(folder_ / "missing/a.png"), pcl_uvol::IOError);
+  EXPECT_EQ("", encodeBase64("", 0));
+  EXPECT_EQ("Zg==", encodeBase64("foobar", 1)); // RFC 4648, section 10
+  EXPECT_EQ("Zm9vYg==", encodeBase64("foobar", 4));
+  EXPECT_EQ("Zm9vYmFy", encodeBase64("foobar", 6));
+  EXPECT_EQ("+/8=", encodeBase64("\xfb\xff", 2));
   EXPECT_EQ("AAECAwQ=", encodeBase64("\0\1\2\3\4", 5));
 }
 
