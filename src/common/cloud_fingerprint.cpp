@@ -38,19 +38,6 @@ bitsOf(const std::uint8_t* component, std::size_t bytes)
   }
 }
 
-__extension__ using WideNumber = unsigned __int128;
-
-/** Both halves of a product: one multiplication mixes two words (as in wyhash, Wang Yi
- * 2019). */
-std::uint64_t
-mixWords(std::uint64_t a, std::uint64_t b)
-{
-  constexpr std::uint64_t odd_a = 0xa0761d6478bd642fu, odd_b = 0xe7037ed1a0b428dbu;
-  const WideNumber product = static_cast<WideNumber>(a ^ odd_a) * (b ^ odd_b);
-  return static_cast<std::uint64_t>(product) ^
-         static_cast<std::uint64_t>(product >> 64);
-}
-
 /** What is read of each point as its value. */
 struct Part {
   std::size_t offset, bytes;

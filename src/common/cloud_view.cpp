@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "common/large_array.h"
 #include "common/records.h"
 #include "common/scalar_field.h"
 #include <pcl_uvol/common/cloud_view.h>
@@ -131,6 +132,14 @@ detail::checkIndices(const pcl::Indices& indices, std::size_t count, const char*
       throw InvalidArgument(std::string(stage) + " was given the index " +
                             std::to_string(index) + ", but the cloud has " +
                             std::to_string(count) + " points.");
+}
+
+pcl::IndicesPtr
+detail::makeIndices(std::size_t count)
+{
+  auto indices = std::make_shared<pcl::Indices>();
+  reserveLarge(*indices, count);
+  return indices;
 }
 
 CloudView

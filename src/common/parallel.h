@@ -4,6 +4,7 @@
 // global OpenMP state is changed.
 #pragma once
 
+#include "common/large_array.h"
 #include <pcl_uvol/common/export.h>
 
 #include <algorithm>
@@ -60,7 +61,7 @@ parallelGather(std::size_t count, std::size_t block, unsigned threads, const Bod
   for (const auto& part : parts)
     total += part.size();
   std::vector<T> joined;
-  joined.reserve(total);
+  reserveLarge(joined, total);
   for (const auto& part : parts)
     joined.insert(joined.end(), part.begin(), part.end());
   return joined;

@@ -2,6 +2,7 @@
 // From records as they lie in files to datasets.
 #include "common/records.h"
 
+#include "common/large_array.h"
 #include "common/merged_positions.h"
 #include "common/printable.h"
 #include "common/scalar_field.h"
@@ -274,7 +275,7 @@ resizePoints(pcl::PCLPointCloud2& cloud, std::size_t count)
   cloud.height = 1;
   cloud.width = static_cast<pcl::uindex_t>(count);
   cloud.row_step = static_cast<pcl::uindex_t>(count * cloud.point_step);
-  cloud.data.resize(count * cloud.point_step);
+  resizeLarge(cloud.data, count * cloud.point_step);
 }
 
 Dataset

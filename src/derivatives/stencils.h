@@ -3,6 +3,7 @@
 // derivative is a fixed stencil, and a sweep over the samples a sparse product.
 #pragma once
 
+#include "common/large_array.h"
 #include "derivatives/local_fit.h"
 #include "derivatives/stencil_view.h"
 #include "neighbors/sample_set.h"
@@ -91,8 +92,8 @@ private:
         std::size_t center);
 
   std::size_t rows_ = 0, neighbors_ = 0;
-  std::vector<std::uint32_t> indices_;
-  std::vector<std::int16_t> weights_;
+  LargeArray<std::uint32_t> indices_;
+  LargeArray<std::int16_t> weights_;
   std::vector<float> scales_, stiffness_, nearest_, reach_;
 };
 

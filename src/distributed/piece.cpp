@@ -22,10 +22,10 @@ constexpr std::size_t anchors_per_cell = 6;
 /** Bricks whose trees a thread builds at once. */
 constexpr std::size_t block_bricks = 16;
 
-std::vector<SampleRecord>
+SampleRecords
 makeRecords(const std::vector<Position>& positions, unsigned threads)
 {
-  std::vector<SampleRecord> records(positions.size());
+  SampleRecords records(positions.size());
   parallelBlocks(records.size(), piece_block, threads, [&](auto begin, auto end) {
     for (std::size_t i = begin; i < end; ++i)
       records[i] = {positions[i], static_cast<std::uint32_t>(i)};
@@ -223,7 +223,7 @@ Piece::build(const Decomposition& decomposition,
   if (samples.size() == 0)
     return std::nullopt; // elsewhere equal ones lie together
   StepTimer step(report, "tree", samples.size());
-  std::vector<SampleRecord> records = makeRecords(samples.positions, threads);
+  SampleRecords records = makeRecords(samples.positions, threads);
   samples.positions = {};
   KdTree tree;
   const bool distinct = tree.build(

@@ -51,10 +51,11 @@ checkParameters(const IsosurfaceParameters& parameters)
 
 void
 IsosurfaceExtractionBase::updateSamples(const CloudView& cloud,
-                                        std::vector<std::uint32_t>&& use)
+                                        std::vector<std::uint32_t> use)
 {
   const Eigen::Array3f& scale = parameters_.scale;
-  if (samples_ && use == sampled_ && (scale == sampled_scale_).all()) {
+  const std::uint64_t fingerprint = computeFingerprint(use);
+  if (samples_ && fingerprint == sampled_ && (scale == sampled_scale_).all()) {
     report_.counts = sampled_report_.counts;
     report_.warnings = sampled_report_.warnings;
   }
@@ -66,14 +67,14 @@ IsosurfaceExtractionBase::updateSamples(const CloudView& cloud,
     candidates_.reset();
     report_.merge(built);
     sampled_report_ = built;
-    sampled_ = std::move(use);
+    sampled_ = fingerprint;
     sampled_scale_ = scale;
   }
 }
 
 struct IsosurfaceExtractionBase::Scalar {
   std::string field;
-  pcl::Indices indices;
+  std::uint64_t indices; // their fingerprint
   Eigen::Array3f scale;
   std::uint64_t fingerprint; // of the values that were read
   ValueFrame frame;
@@ -99,7 +100,8 @@ IsosurfaceExtractionBase::updateScalar(const CloudView& cloud,
   if (fingerprint.positions != sampled_fingerprint_)
     forgetSamples();
   sampled_fingerprint_ = fingerprint.positions;
-  if (scalar_ && scalar_->field == parameters_.field && scalar_->indices == indices &&
+  const std::uint64_t chosen = computeFingerprint(indices);
+  if (scalar_ && scalar_->field == parameters_.field && scalar_->indices == chosen &&
       (scalar_->scale == parameters_.scale).all() &&
       scalar_->fingerprint == fingerprint.values) {
     report_.counts = scalar_->read.counts;
@@ -124,7 +126,7 @@ IsosurfaceExtractionBase::updateScalar(const CloudView& cloud,
   const StepTimer timer(report_, "ranges");
   auto scalar = std::make_shared<Scalar>();
   scalar->field = parameters_.field;
-  scalar->indices = indices;
+  scalar->indices = chosen;
   scalar->scale = parameters_.scale;
   scalar->fingerprint = fingerprint.values;
   scalar->frame = frame;

@@ -146,8 +146,8 @@ allowForDetail(const SurfaceSize& estimated)
 double
 extractionBytes(double samples)
 {
-  // Indices of the points: those given, those with a value, and those remembered.
-  return 3.0 * index_bytes * samples + sampleSetNeed(samples).kept +
+  // With the indices of the points.
+  return index_bytes * samples + sampleSetNeed(samples).kept +
          (float_bytes + index_bytes) * samples + nodeRangesBytes(samples);
 }
 
@@ -155,11 +155,11 @@ MemoryNeed
 isosurfaceNeed(double samples, const std::vector<SurfaceSize>& surfaces)
 {
   MemoryForecast forecast(0.0);
-  // The scalar as it lies in the cloud, beside the tree while that is built, and beside
-  // all that remains.
+  // The scalar as it lies in the cloud and the points with a value, beside the tree
+  // while that is built; then the scalar beside all that remains.
   const MemoryNeed of_tree = sampleSetNeed(samples);
   const double of_scalar = float_bytes * samples, remaining = extractionBytes(samples);
-  forecast.run({of_scalar + 3.0 * index_bytes * samples + of_tree.peak, 0.0});
+  forecast.run({of_scalar + 2.0 * index_bytes * samples + of_tree.peak, 0.0});
   forecast.run({of_scalar + remaining, remaining});
   double kept = 0.0;
   for (const SurfaceSize& surface : surfaces) {

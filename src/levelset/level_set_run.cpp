@@ -90,7 +90,7 @@ public:
     finish();
     report_.count("steps", summary_.steps.size());
     report_.count("band_samples", band_->centers.size());
-    LevelSet level_set{expandToCloud(phi_), computeDeviations(), {}, summary_};
+    LevelSet level_set{expandToCloud(phi_), computeDeviations(), {}, summary_, {}};
     level_set.sources = std::move(input_.sources);
     return level_set;
   }
@@ -532,7 +532,7 @@ detail::evolveLevelSet(const CloudView& cloud,
                        const LevelSetParameters& parameters,
                        std::size_t snapshot_steps,
                        const SnapshotCallback& snapshot,
-                       std::optional<SamplingSummary>* sampling,
+                       bool is_examined,
                        unsigned threads,
                        Report& report)
 {
@@ -542,16 +542,17 @@ detail::evolveLevelSet(const CloudView& cloud,
   LevelSetParameters along_axes = parameters;
   along_axes.initial = turnShape(parameters.initial, axes);
   LevelSetInput input = readInput(turned, indices, along_axes, threads, report);
-  if (sampling)
-    *sampling = examineSurface(input, threads, report);
-  return LevelSetRun(turned,
-                     std::move(input),
-                     along_axes,
-                     snapshot_steps,
-                     snapshot,
-                     threads,
-                     report)
-      .run();
+  const SamplingSummary sampling = examineSurface(input, is_examined, threads, report);
+  LevelSet level_set = LevelSetRun(turned,
+                                   std::move(input),
+                                   along_axes,
+                                   snapshot_steps,
+                                   snapshot,
+                                   threads,
+                                   report)
+                           .run();
+  level_set.sampling = sampling;
+  return level_set;
 }
 
 } // namespace pcl_uvol

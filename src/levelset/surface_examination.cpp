@@ -36,11 +36,14 @@ countExaminedRoots(const LevelSetInput& input, unsigned threads, Report& report)
 } // namespace
 
 SamplingSummary
-examineSurface(const LevelSetInput& input, unsigned threads, Report& report)
+examineSurface(const LevelSetInput& input,
+               bool has_roots,
+               unsigned threads,
+               Report& report)
 {
   const StepTimer timer(report, "sampling");
   const SamplingSummary sampling = summarizeSampling(*input.samples, threads);
-  if (sampling.most != LocalDimension::Volume)
+  if (has_roots && sampling.most != LocalDimension::Volume)
     countExaminedRoots(input, threads, report);
   return sampling;
 }

@@ -9,9 +9,14 @@
 namespace pcl_uvol {
 
 /** \brief Look at how samples lie.
- * \param report where they do not lie all around, gets the counts "examined",
- * "examined_bridged" and "examined_rim" of linear isopoints, see countExamined */
+ * \param has_roots whether isopoints are looked at as well
+ * \param report with them, where they do not lie all around, gets the counts
+ * "examined", "examined_bridged" and "examined_rim" of linear isopoints, see
+ * countExamined */
 SamplingSummary
-examineSurface(const LevelSetInput& input, unsigned threads, Report& report);
+examineSurface(const LevelSetInput& input,
+               bool has_roots,
+               unsigned threads,
+               Report& report);
 
 } // namespace pcl_uvol

@@ -110,7 +110,7 @@ private:
   const IsopointInput& input_;
   float isovalue_;
   std::vector<std::uint32_t> place_of_; // by sample, among cells_
-  std::vector<BandCell> cells_;
+  LargeArray<BandCell> cells_;
   std::vector<std::uint32_t> band_;
 };
 

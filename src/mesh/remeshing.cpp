@@ -59,6 +59,7 @@ public:
       , threads_(threads)
       , step_(step)
   {
+    feet_.reserve(mesh.vertices.size());
     for (WorkingVertex& vertex : mesh.vertices) {
       feet_.push_back(vertex.foot);
       vertex.size = std::max(vertex.size, size_per_edge * edge_length);
@@ -68,7 +69,7 @@ public:
   void
   smooth(int rounds)
   {
-    std::vector<Foot> moved(mesh_.vertices.size());
+    LargeArray<Foot> moved(mesh_.vertices.size());
     for (int round = 0; round < rounds; ++round) {
       parallelBlocks(
           moved.size(), remeshing_block, threads_, [&](auto begin, auto end) {
@@ -395,7 +396,7 @@ private:
 
   WorkingMesh& mesh_;
   HalfEdges edges_;
-  std::vector<Foot> feet_; // by vertex, where the surface is known
+  LargeArray<Foot> feet_; // by vertex, where the surface is known
   std::vector<bool> is_gone_;
   unsigned threads_;
   StepTimer& step_;

@@ -2,6 +2,7 @@
 // A mesh while it is made: vertices that know the surface they lie on.
 #pragma once
 
+#include "common/large_array.h"
 #include "mesh/dual_surface.h"
 #include "mesh/foot.h"
 #include <pcl_uvol/common/dataset.h>
@@ -31,7 +32,7 @@ constexpr MeshRegion surface_region = -1;
 /** \brief Vertices and triangles, which are counter-clockwise seen from lower values,
  * and the box of the samples. */
 struct WorkingMesh {
-  std::vector<WorkingVertex> vertices;
+  LargeArray<WorkingVertex> vertices;
   std::vector<Triangle> triangles;
   std::vector<MeshRegion> regions; ///< by triangle
   std::array<double, 6> sides{};   ///< coordinates of the box, as ghosts are numbered

@@ -5,6 +5,7 @@
 
 #include "common/parallel.h"
 #include "neighbors/equal_positions.h"
+#include "neighbors/kernel_tables.h"
 #include "neighbors/record_partition.h"
 
 #include <algorithm>
@@ -24,6 +25,31 @@ constexpr std::size_t block_samples = 1u << 14;
 
 static_assert(task_samples <= EqualPositions::most_records);
 
+/** Smallest power of two of parts that leaves no part more than that many samples:
+ * nodes that hold more have lower numbers. */
+std::size_t
+countParts(std::uint32_t count, std::uint32_t most)
+{
+  std::size_t parts = 1;
+  while (parts * most < count)
+    parts <<= 1;
+  return parts;
+}
+
+KdBox
+boxAroundRecords(const SampleRecord* records, std::size_t count)
+{
+  using RecordRegister =
+      float __attribute__((vector_size(sizeof(SampleRecord)), aligned(4), may_alias));
+  const auto* const first = reinterpret_cast<const RecordRegister*>(records);
+  RecordRegister low = *first, high = *first;
+  for (std::size_t i = 1; i < count; ++i) {
+    low = first[i] < low ? first[i] : low;
+    high = first[i] > high ? first[i] : high;
+  }
+  return {{{low[0], low[1], low[2]}}, {{high[0], high[1], high[2]}}};
+}
+
 /** Split axes by depth: cells need not be known. */
 class CycledAxes {
 public:
@@ -37,7 +63,30 @@ public:
   int
   choose(const KdNode& node, const Cell&) const
   {
+    return getAxis(node);
+  }
+
+  int
+  getAxis(const KdNode& node) const
+  {
     return axes_[static_cast<std::size_t>(node.depth)];
+  }
+
+  void
+  buildInRegisters(const TreeKernels& kernels,
+                   const KdNode& node,
+                   const Cell&,
+                   SampleRecord* first,
+                   SplitPlane* planes) const
+  {
+    kernels.build(first->position.x,
+                  static_cast<int>(node.count),
+                  node.number,
+                  axes_.data() + node.depth,
+                  nullptr,
+                  nullptr,
+                  planes,
+                  nullptr);
   }
 
   static Cell
@@ -61,7 +110,7 @@ class LongestSides {
 public:
   using Cell = KdBox;
 
-  explicit LongestSides(std::vector<std::int8_t>& axes)
+  explicit LongestSides(LargeArray<std::int8_t>& axes)
       : axes_(axes)
   {
   }
@@ -75,6 +124,29 @@ public:
         longest = axis;
     axes_[node.number] = static_cast<std::int8_t>(longest);
     return longest;
+  }
+
+  int
+  getAxis(const KdNode& node) const
+  {
+    return axes_[node.number];
+  }
+
+  void
+  buildInRegisters(const TreeKernels& kernels,
+                   const KdNode& node,
+                   const Cell& cell,
+                   SampleRecord* first,
+                   SplitPlane* planes) const
+  {
+    kernels.build(first->position.x,
+                  static_cast<int>(node.count),
+                  node.number,
+                  no_cycle.data(),
+                  cell.low.x,
+                  cell.high.x,
+                  planes,
+                  axes_.data());
   }
 
   static Cell
@@ -92,7 +164,9 @@ public:
   }
 
 private:
-  std::vector<std::int8_t>& axes_; // by node number
+  static constexpr AxisCycle no_cycle{};
+
+  LargeArray<std::int8_t>& axes_; // by node number
 };
 
 /** Parts records from the root down to blocks, which tell whether positions are equal;
@@ -104,15 +178,16 @@ public:
   using Cell = typename Axes::Cell;
 
   Builder(const Axes& axes,
-          std::vector<SampleRecord>& records,
-          std::vector<SplitPlane>& planes,
-          std::vector<KdBox>& boxes,
+          SampleRecords& records,
+          LargeArray<SplitPlane>& planes,
+          LargeArray<KdBox>& boxes,
           StepTimer& step)
       : axes_(axes)
       , records_(records)
       , planes_(planes)
       , boxes_(boxes)
       , step_(step)
+      , below_(2 * countParts(static_cast<std::uint32_t>(records.size()), task_samples))
   {
   }
 
@@ -139,9 +214,11 @@ private:
     }
     KdNode left = node.left(), right = node.right();
     const int axis = axes_.choose(node, cell);
-    if (const SampleRecord* const equal = split(node, axis)) {
+    const RecordCut cut = split(node, axis);
+    below_[node.number] = cut.below->position;
+    if (cut.is_among_equals) {
       has_equals_.store(true, std::memory_order_relaxed);
-      const auto [less_end, greater] = partAround(node, axis, equal->position);
+      const auto [less_end, greater] = partAround(node, axis, cut.below->position);
       left.count = less_end - node.begin;
       right.begin = greater;
       right.count = node.begin + node.count - greater;
@@ -177,14 +254,16 @@ private:
     if (!EqualPositions(block.count).areAmong(first, block.count))
       return;
     has_equals_.store(true, std::memory_order_relaxed);
-    std::sort(first, first + block.count, lessRecord<0>);
+    std::sort(first, first + block.count, [](const auto& a, const auto& b) {
+      return lessAlong(0, a.position, b.position);
+    });
   }
 
   void
   buildBlocks(const KdNode& node, const Cell& cell)
   {
     if (node.count < task_samples) {
-      buildAlone(node, cell);
+      buildBlock(node, cell);
       step_.advance(node.count);
       return;
     }
@@ -194,9 +273,50 @@ private:
         [&] { buildBlocks(node.left(), Axes::cutAbove(cell, axis, plane)); },
         [&] { buildBlocks(node.right(), Axes::cutBelow(cell, axis, plane)); });
     joinBoxes(node);
+    planes_[node.number].below_sample = findSample(node.left(), below_[node.number]);
   }
 
-  /** A subtree by one task. */
+  /** The place of a position that a subtree has. */
+  std::uint32_t
+  findSample(KdNode node, const Position& position) const
+  {
+    while (!node.isLeaf()) {
+      const std::uint32_t below = planes_[node.number].below_sample;
+      const int axis = axes_.getAxis(node);
+      node = lessAlong(axis, records_[below].position, position) ? node.right()
+                                                                 : node.left();
+    }
+    return node.begin;
+  }
+
+  /** A subtree by one task. While samples move, planes know them by their first places
+   * in the block. */
+  void
+  buildBlock(const KdNode& node, const Cell& cell)
+  {
+    SampleRecord* const records = records_.data() + node.begin;
+    std::vector<std::uint32_t> input_indices(node.count), place_of(node.count);
+    for (std::uint32_t i = 0; i < node.count; ++i) {
+      input_indices[i] = records[i].input_index;
+      records[i].input_index = i;
+    }
+    // Planes that the last levels lack are looked at as well.
+    for (std::uint64_t first = node.number, nodes = 1; first < planes_.size();
+         first *= 2, nodes *= 2)
+      std::fill_n(planes_.begin() + static_cast<std::ptrdiff_t>(first),
+                  nodes,
+                  SplitPlane{0.0f, 0});
+    buildAlone(node, cell);
+    for (std::uint32_t i = 0; i < node.count; ++i) {
+      place_of[records[i].input_index] = node.begin + i;
+      records[i].input_index = input_indices[records[i].input_index];
+    }
+    for (std::uint64_t first = node.number, nodes = 1; first < planes_.size();
+         first *= 2, nodes *= 2)
+      for (std::uint64_t i = first; i < first + nodes; ++i)
+        planes_[i].below_sample = place_of[planes_[i].below_sample];
+  }
+
   void
   buildAlone(const KdNode& node, const Cell& cell)
   {
@@ -218,6 +338,9 @@ private:
   {
     if (node.isLeaf())
       return;
+    if (node.count <= kernels_.most_in_registers)
+      return axes_.buildInRegisters(
+          kernels_, node, cell, records_.data() + node.begin, planes_.data());
     const int axis = axes_.choose(node, cell);
     split(node, axis);
     const float plane = planes_[node.number].coordinate;
@@ -225,48 +348,21 @@ private:
     buildBucket(node.right(), Axes::cutBelow(cell, axis, plane));
   }
 
-  /** Returns a record of the position that stands on both sides of the cut, if there is
-   * one. */
-  const SampleRecord*
+  RecordCut
   split(const KdNode& node, int axis)
   {
-    switch (axis) {
-    case 0:
-      return split<0>(node);
-    case 1:
-      return split<1>(node);
-    default:
-      return split<2>(node);
-    }
-  }
-
-  template <int axis>
-  const SampleRecord*
-  split(const KdNode& node)
-  {
     SampleRecord* const first = records_.data() + node.begin;
-    SampleRecord* const last = first + node.count;
-    SampleRecord* const cut = first + (node.count + 1) / 2; // first of the right half
-    const auto [below, above] = partAtCut<axis>(first, cut, last);
-    if (!lessRecord<axis>(*below, *above))
-      return below;
-    const double middle = 0.5 * (static_cast<double>(below->position[axis]) +
-                                 static_cast<double>(above->position[axis]));
-    planes_[node.number] = {static_cast<float>(middle), below->input_index};
-    return nullptr;
+    const RecordCut cut = partition_.partAtCut(
+        first, first + (node.count + 1) / 2, first + node.count, axis);
+    planes_[node.number] = {midway(cut.below->position[axis], cut.above),
+                            cut.below->input_index};
+    return cut;
   }
 
   KdBox
   boxAround(const KdNode& bucket) const
   {
-    const auto* const first =
-        reinterpret_cast<const RecordRegister*>(records_.data() + bucket.begin);
-    RecordRegister low = *first, high = *first;
-    for (std::uint32_t i = 1; i < bucket.count; ++i) {
-      low = first[i] < low ? first[i] : low;
-      high = first[i] > high ? first[i] : high;
-    }
-    return {{{low[0], low[1], low[2]}}, {{high[0], high[1], high[2]}}};
+    return boxAroundRecords(records_.data() + bucket.begin, bucket.count);
   }
 
   /** The box of a node from those of its halves. */
@@ -283,23 +379,15 @@ private:
   }
 
   const Axes& axes_;
-  std::vector<SampleRecord>& records_;
-  std::vector<SplitPlane>& planes_;
-  std::vector<KdBox>& boxes_;
+  SampleRecords& records_;
+  LargeArray<SplitPlane>& planes_;
+  LargeArray<KdBox>& boxes_;
   StepTimer& step_;
+  const TreeKernels& kernels_ = *tree_kernel_table.get();
+  RecordPartition partition_{kernels_};
+  std::vector<Position> below_; // last before the planes of nodes above blocks
   std::atomic<bool> has_equals_{false};
 };
-
-/** Smallest power of two of parts that leaves no part more than that many samples:
- * nodes that hold more have lower numbers. */
-std::size_t
-countParts(std::uint32_t count, std::uint32_t most)
-{
-  std::size_t parts = 1;
-  while (parts * most < count)
-    parts <<= 1;
-  return parts;
-}
 
 NodeRanges::Range
 fillRanges(NodeRanges& ranges, const KdNode& node)
@@ -340,10 +428,7 @@ KdTree::cycleOver(const std::array<bool, 3>& axes)
 }
 
 bool
-KdTree::build(std::vector<SampleRecord>& records,
-              unsigned threads,
-              StepTimer& step,
-              SplitRule rule)
+KdTree::build(SampleRecords& records, unsigned threads, StepTimer& step, SplitRule rule)
 {
   // An axis along which all samples agree would only add splits by the other
   // coordinates.
@@ -357,7 +442,7 @@ KdTree::build(std::vector<SampleRecord>& records,
 }
 
 bool
-KdTree::build(std::vector<SampleRecord>& records,
+KdTree::build(SampleRecords& records,
               const AxisCycle& axes,
               int depth,
               unsigned threads,
@@ -366,25 +451,9 @@ KdTree::build(std::vector<SampleRecord>& records,
   return buildBy(SplitRule::Cycle, records, axes, depth, threads, step);
 }
 
-namespace {
-
-KdBox
-boxAround(const std::vector<SampleRecord>& records)
-{
-  KdBox box{records.front().position, records.front().position};
-  for (const SampleRecord& record : records)
-    for (int axis = 0; axis < 3; ++axis) {
-      box.low[axis] = std::min(box.low[axis], record.position[axis]);
-      box.high[axis] = std::max(box.high[axis], record.position[axis]);
-    }
-  return box;
-}
-
-} // namespace
-
 bool
 KdTree::buildBy(SplitRule rule,
-                std::vector<SampleRecord>& records,
+                SampleRecords& records,
                 const AxisCycle& axes,
                 int depth,
                 unsigned threads,
@@ -392,7 +461,7 @@ KdTree::buildBy(SplitRule rule,
 {
   root_ = {1, 0, static_cast<std::uint32_t>(records.size()), depth};
   axis_at_depth_ = axes;
-  planes_.assign(countParts(root_.count, 1), SplitPlane{0.0f, 0});
+  planes_.resize(countParts(root_.count, 1));
   boxes_.resize(2 * countParts(root_.count, bucket_samples));
   const auto buildWith = [&](const auto& chosen, const auto& cell) {
     Builder builder(chosen, records, planes_, boxes_, step);
@@ -404,29 +473,12 @@ KdTree::buildBy(SplitRule rule,
   bool is_built;
   if (rule == SplitRule::LongestSide) {
     axes_.resize(planes_.size());
-    is_built = buildWith(LongestSides(axes_), pcl_uvol::boxAround(records));
+    is_built = buildWith(LongestSides(axes_),
+                         boxAroundRecords(records.data(), records.size()));
   }
   else
     is_built = buildWith(CycledAxes(axis_at_depth_), CycledAxes::Cell());
-  if (!is_built)
-    return false;
-
-  // Planes were given input indices; the samples' leaf order is known only now.
-  std::uint32_t highest = 0;
-  for (const SampleRecord& record : records)
-    highest = std::max(highest, record.input_index);
-  std::vector<std::uint32_t> sample_of(static_cast<std::size_t>(highest) + 1);
-  parallelBlocks(
-      records.size(), block_samples, threads, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-          sample_of[records[i].input_index] = static_cast<std::uint32_t>(i);
-      });
-  parallelBlocks(
-      planes_.size(), block_samples, threads, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-          planes_[i].below_sample = sample_of[planes_[i].below_sample];
-      });
-  return true;
+  return is_built;
 }
 
 void

@@ -4,6 +4,8 @@
 // found from the numbers (2.2.2 - 2.2.4).
 #pragma once
 
+#include "common/large_array.h"
+#include "neighbors/tree_kernel.h"
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/stage.h>
 
@@ -55,28 +57,29 @@ struct SampleRecord {
   std::uint32_t input_index;
 };
 
+using SampleRecords = LargeArray<SampleRecord>;
+
+/** \brief x after z. */
+constexpr int
+nextAxis(int axis)
+{
+  return axis == 2 ? 0 : axis + 1;
+}
+
 /** \brief Total order along an axis: by that coordinate, then the other two in cyclic
  * order. It tells distinct positions apart, so that samples with equal coordinates give
  * one tree whatever their order in the input. */
 inline bool
 lessAlong(int axis, const Position& a, const Position& b)
 {
-  static constexpr int next[3] = {1, 2, 0};
   if (a[axis] != b[axis])
     return a[axis] < b[axis];
-  const int second = next[axis];
+  const int second = nextAxis(axis);
   if (a[second] != b[second])
     return a[second] < b[second];
-  const int third = next[second];
+  const int third = nextAxis(second);
   return a[third] < b[third];
 }
-
-/** \brief A splitting plane: a position in the total order along its axis. */
-struct SplitPlane {
-  float coordinate;           ///< midway between the neighbours of the cut
-  std::uint32_t below_sample; ///< the last sample below the plane; decides between
-                              ///< planes of equal coordinate
-};
 
 /** \brief A node and the samples below it, which are consecutive in leaf order. */
 struct KdNode {
@@ -139,7 +142,7 @@ struct PCL_UVOL_EXPORTS NodeRanges {
       return {std::min(min, other.min), std::max(max, other.max)};
     }
   };
-  std::vector<Range> inner;      ///< by node number
+  LargeArray<Range> inner;       ///< by node number
   const float* values = nullptr; ///< by sample, kept by the caller
 
   Range
@@ -166,7 +169,7 @@ public:
    * and there is no tree, since their cells could not be told apart
    * \param step is advanced by the number of records */
   bool
-  build(std::vector<SampleRecord>& records,
+  build(SampleRecords& records,
         unsigned threads,
         StepTimer& step,
         SplitRule rule = SplitRule::Cycle);
@@ -174,7 +177,7 @@ public:
   /** \brief The same for a subtree of a larger tree, whose cycle of axes decides.
    * \param depth of the subtree's root in that tree */
   bool
-  build(std::vector<SampleRecord>& records,
+  build(SampleRecords& records,
         const AxisCycle& axes,
         int depth,
         unsigned threads,
@@ -316,7 +319,7 @@ private:
 
   bool
   buildBy(SplitRule rule,
-          std::vector<SampleRecord>& records,
+          SampleRecords& records,
           const AxisCycle& axes,
           int depth,
           unsigned threads,
@@ -325,9 +328,9 @@ private:
   KdNode root_{1, 0, 0, 0};
   KdCell cell_ = unboundedCell();
   AxisCycle axis_at_depth_{};
-  std::vector<std::int8_t> axes_; // by node number; empty: those of the cycle
-  std::vector<SplitPlane> planes_;
-  std::vector<KdBox> boxes_;
+  LargeArray<std::int8_t> axes_; // by node number; empty: those of the cycle
+  LargeArray<SplitPlane> planes_;
+  LargeArray<KdBox> boxes_;
 };
 
 } // namespace pcl_uvol

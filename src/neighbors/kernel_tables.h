@@ -5,6 +5,7 @@
 #include "common/dispatch.h"
 #include "neighbors/metric_kernel.h"
 #include "neighbors/nearest_kernel.h"
+#include "neighbors/tree_kernel.h"
 
 namespace pcl_uvol {
 
@@ -13,5 +14,8 @@ constexpr KernelTable<const NearestKernels*> nearest_kernel_table{
 
 constexpr KernelTable<const MetricKernels*> metric_kernel_table{
     &baseline::metric_kernels, &avx2::metric_kernels, &avx512::metric_kernels};
+
+constexpr KernelTable<const TreeKernels*> tree_kernel_table{
+    &baseline::tree_kernels, &avx2::tree_kernels, &avx512::tree_kernels};
 
 } // namespace pcl_uvol

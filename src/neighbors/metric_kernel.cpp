@@ -7,7 +7,7 @@ namespace pcl_uvol::PCL_UVOL_SIMD {
 
 namespace {
 
-using Floats = float __attribute__((vector_size(16)));
+using FourFloats = float __attribute__((vector_size(16)));
 using FourDoubles = double __attribute__((vector_size(32)));
 using Pair = double __attribute__((vector_size(16)));
 using Lines = float __attribute__((vector_size(line_lanes * sizeof(float))));
@@ -42,9 +42,9 @@ measureFour(const float* positions,
             const FourDoubles (&point)[3],
             const MetricRows& metric)
 {
-  const auto a = load<Floats>(positions), b = load<Floats>(positions + 4),
-             c = load<Floats>(positions + 8);
-  const Floats xs[3] = {
+  const auto a = load<FourFloats>(positions), b = load<FourFloats>(positions + 4),
+             c = load<FourFloats>(positions + 8);
+  const FourFloats xs[3] = {
       __builtin_shufflevector(__builtin_shufflevector(a, b, 0, 3, 6, 6), c, 0, 1, 2, 5),
       __builtin_shufflevector(__builtin_shufflevector(a, b, 1, 4, 7, 7), c, 0, 1, 2, 6),
       __builtin_shufflevector(

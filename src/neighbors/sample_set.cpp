@@ -22,7 +22,7 @@ struct Gathered {
 
 /** Records of the points that are samples.
  * \param all gets what became of the others */
-std::vector<SampleRecord>
+SampleRecords
 gatherRecords(const float* xyz,
               std::size_t stride,
               const std::vector<std::uint32_t>& use,
@@ -30,7 +30,7 @@ gatherRecords(const float* xyz,
               unsigned threads,
               Gathered& all)
 {
-  std::vector<SampleRecord> records(use.size());
+  SampleRecords records(use.size());
   std::vector<Gathered> blocks((use.size() + set_block - 1) / set_block);
   parallelBlocks(
       use.size(), set_block, threads, [&](std::size_t begin, std::size_t end) {
@@ -75,7 +75,7 @@ struct Duplicates {
 /** Leave one record, that of the lowest input index, per position.
  * \param records equal ones side by side */
 Duplicates
-mergeDuplicates(std::vector<SampleRecord>& records)
+mergeDuplicates(SampleRecords& records)
 {
   Duplicates duplicates;
   std::vector<std::uint32_t>& members = duplicates.members;
@@ -102,7 +102,7 @@ mergeDuplicates(std::vector<SampleRecord>& records)
 
 /** The samples that stand for several points, in leaf order. */
 std::vector<SampleSet::Merged>
-findMerged(const Duplicates& duplicates, const std::vector<SampleRecord>& records)
+findMerged(const Duplicates& duplicates, const SampleRecords& records)
 {
   // Per input index that stands for others its place among the duplicates.
   constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
@@ -159,8 +159,7 @@ SampleSet::buildInUnit(const float* xyz,
 {
   StepTimer step(report, "tree", use.size());
   Gathered gathered;
-  std::vector<SampleRecord> records =
-      gatherRecords(xyz, stride, use, unit, threads, gathered);
+  SampleRecords records = gatherRecords(xyz, stride, use, unit, threads, gathered);
   report.count("non_finite", gathered.non_finite);
   if (gathered.strays.count > 0)
     report.count("strays", gathered.strays.count);
@@ -185,8 +184,8 @@ SampleSet::buildInUnit(const float* xyz,
   report.count("duplicates", finite - records.size());
 
   parts.size = records.size();
-  parts.positions.resize(records.size());
-  set->input_indices_.resize(records.size());
+  resizeLarge(parts.positions, records.size());
+  resizeLarge(set->input_indices_, records.size());
   parallelBlocks(
       records.size(), set_block, threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "neighbors/sample_values.h"
 
+#include "common/large_array.h"
 #include "common/parallel.h"
 
 #include <algorithm>
@@ -22,7 +23,8 @@ readValues(const CloudView& cloud,
            const ValueFrame& frame,
            unsigned threads)
 {
-  std::vector<float> values(cloud.count);
+  std::vector<float> values;
+  resizeLarge(values, cloud.count);
   const FieldComponent& first = field.getComponents().front();
   const bool is_plain = !field.isLength() &&
                         first.datatype == pcl::PCLPointField::FLOAT32 &&
@@ -51,8 +53,8 @@ gatherValues(const SampleSet& samples,
              Report& report)
 {
   SampleValues scalar;
-  scalar.values.resize(samples.size());
-  scalar.sources.resize(samples.size());
+  resizeLarge(scalar.values, samples.size());
+  resizeLarge(scalar.sources, samples.size());
   parallelBlocks(
       samples.size(), value_block, threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {

@@ -3,6 +3,7 @@
 // starts from.
 #pragma once
 
+#include "common/large_array.h"
 #include "common/scalar_field.h"
 #include "common/value_frame.h"
 #include "neighbors/sample_set.h"
@@ -35,7 +36,7 @@ pointsWithValue(const std::vector<Value>& values,
                 const ScalarField& field)
 {
   std::vector<std::uint32_t> use;
-  use.reserve(indices.size());
+  reserveLarge(use, indices.size());
   for (const int index : indices)
     if (!std::isnan(values[static_cast<std::size_t>(index)]))
       use.push_back(static_cast<std::uint32_t>(index));

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "common/large_array.h"
 #include "common/records.h"
 #include "common/scalar_field.h"
 #include "common/stretch_axes.h"
@@ -297,7 +298,8 @@ IsosurfacePipeline::listPoints() const
 {
   if (indices_)
     return *indices_;
-  pcl::Indices all(samples_->cloud.width);
+  pcl::Indices all;
+  resizeLarge(all, samples_->cloud.width);
   std::iota(all.begin(), all.end(), 0);
   return all;
 }
@@ -390,26 +392,28 @@ IsosurfacePipeline::runOnSamples(const IsosurfacePipelineParameters& parameters)
   std::vector<LevelSetSummary> level_sets;
   if (parameters.validation.folds > 0) // a field that is none fails early
     makeFolds(viewOf(samples_->cloud), parameters.validation, threads_);
-  std::optional<SamplingSummary> sampling;
-  if ((parameters.smooth || parameters.mesh) && !gaps_) {
-    // Before these take the memory that the tree needs.
+  const auto summarize = [&] {
     const StepTimer timer(report_, "sampling");
-    sampling = summarizeSampling(viewOf(samples_->cloud),
-                                 listPoints(),
-                                 parameters.isosurface.field,
-                                 parameters.isosurface.scale,
-                                 Eigen::Array3d::Zero(),
-                                 threads_);
-  }
-  SurfaceTriangles found = parameters.smooth
-                               ? extractLevelSets(parameters.isosurface, level_sets)
-                               : extract(withErrors(parameters), report_);
+    if (!parameters.mesh)
+      return summarizeSampling(*extraction_.getSamples(), threads_);
+    // By a tree of its own, as that of a mesh has another order of samples.
+    return summarizeSampling(viewOf(samples_->cloud),
+                             listPoints(),
+                             parameters.isosurface.field,
+                             parameters.isosurface.scale,
+                             Eigen::Array3d::Zero(),
+                             threads_);
+  };
+  std::optional<SamplingSummary> sampling;
+  if (parameters.mesh && !parameters.smooth && !gaps_)
+    sampling = summarize(); // before the mesh takes the memory for it
+  SurfaceTriangles found =
+      parameters.smooth ? extractLevelSets(parameters.isosurface, level_sets, sampling)
+                        : extract(withErrors(parameters), report_);
   if (gaps_)
     sampling = gaps_->getSampling();
-  else if (!sampling) {
-    const StepTimer timer(report_, "sampling");
-    sampling = summarizeSampling(*extraction_.getSamples(), threads_);
-  }
+  else if (!sampling)
+    sampling = summarize();
   SelfCommunicator alone;
   IsosurfaceResult result = finish(*samples_,
                                    found,
@@ -480,7 +484,8 @@ IsosurfacePipeline::extract(const IsosurfaceParameters& parameters, Report& repo
 
 SurfaceTriangles
 IsosurfacePipeline::extractLevelSets(const IsosurfaceParameters& parameters,
-                                     std::vector<LevelSetSummary>& summaries)
+                                     std::vector<LevelSetSummary>& summaries,
+                                     std::optional<SamplingSummary>& sampling)
 {
   LevelSetEvolution<pcl::PCLPointCloud2> evolution;
   evolution.setInputCloud(shareCloud(samples_));
@@ -510,6 +515,7 @@ IsosurfacePipeline::extractLevelSets(const IsosurfaceParameters& parameters,
     try {
       evolution.evolve(phi);
       summaries.back() = evolution.getSummary();
+      sampling = evolution.getSampling();
       tell(evolution.getReport());
     }
     catch (const NoLevelSet&) {

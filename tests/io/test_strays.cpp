@@ -48,7 +48,7 @@ evolveField(const pcl_uvol::CloudView& cloud, const std::string& field, double i
   parameters.isovalue = isovalue;
   Report report;
   return pcl_uvol::detail::evolveLevelSet(
-      cloud, all, parameters, 0, {}, nullptr, 0, report);
+      cloud, all, parameters, 0, {}, false, 0, report);
 }
 
 TEST(Strays, AreLeftOutCountedAndNamed)

@@ -153,7 +153,7 @@ TEST(Values, GradientsAndLevelSetsFollow)
                                             parameters,
                                             0,
                                             nullptr,
-                                            nullptr,
+                                            false,
                                             0,
                                             report)
         .phi;

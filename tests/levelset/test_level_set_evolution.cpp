@@ -133,7 +133,7 @@ struct Reinitialized {
     parameters.max_steps = steps;
     parameters.isovalue = 0.0;
     const pcl_uvol::LevelSet found = pcl_uvol::detail::evolveLevelSet(
-        pcl_uvol::viewOf(cloud), all, parameters, 0, nullptr, nullptr, 0, report);
+        pcl_uvol::viewOf(cloud), all, parameters, 0, nullptr, false, 0, report);
     summary = found.summary;
     for (const double distance : radiiOf(*ball, found.phi))
       deviations.push_back(std::abs(distance - radius));
@@ -383,7 +383,6 @@ TEST(LevelSetEvolution, LooksAtHowSamplesLieWhereThatIsAskedFor)
   Evolution evolution;
   evolution.setMaximumSteps(3);
   const auto phi = evolve(evolution, lines);
-  EXPECT_FALSE(evolution.getSampling());
   EXPECT_EQ(0u, evolution.getReport().getCount("examined"));
   evolution.setExamined(true);
   EXPECT_EQ(phi, evolve(evolution, lines));

@@ -350,7 +350,7 @@ TEST(LevelSetRobust, SteepStartsBecomeDistances)
   parameters.initial = InitialFunction::field("curvature");
   Report report;
   const LevelSet found = detail::evolveLevelSet(
-      viewOf(steep), all, parameters, 0, nullptr, nullptr, 0, report);
+      viewOf(steep), all, parameters, 0, nullptr, false, 0, report);
   EXPECT_TRUE(found.summary.converged);
   EXPECT_LT(found.summary.steps.back().slope_error, 0.1);
   for (std::size_t i = 0; i < cloud->size(); ++i) {

@@ -15,16 +15,14 @@ report() {
   breaches=$((breaches + 1))
 }
 include='^[[:space:]]*#[[:space:]]*include[[:space:]]*' # as compilers read it
-for module in "${!level[@]}"; do
-  for file in $(find "include/pcl_uvol/$module" "src/$module" -type f 2>/dev/null); do
-    for included in $(sed -nE "s|$include[\"<](pcl_uvol/)?([a-z_]+)/.*|\2|p" "$file" | sort -u); do
-      # Others than modules are libraries: pcl/, Eigen/, nlohmann/.
-      if [ "$included" != "$module" ] && [ "${level[$included]:--1}" -ge "${level[$module]}" ]; then
-        report "$file ($module) may not include $included"
-      fi
-    done
-  done
-done
+while IFS=: read -r file included; do
+  module=${file#*src/} module=${module#include/pcl_uvol/} module=${module%%/*}
+  included=${included##*[<\"]} included=${included#pcl_uvol/} included=${included%/}
+  # Others than modules are libraries: pcl/, Eigen/, nlohmann/.
+  if [ "$included" != "$module" ] && [ "${level[$included]:--1}" -ge "${level[$module]:-99}" ]; then
+    report "$file ($module) may not include $included"
+  fi
+done < <(grep -roE "$include[\"<](pcl_uvol/)?[a-z_]+/" include/pcl_uvol src 2>/dev/null || true)
 while read -r line; do
   report "not installed, but in a public header: $line"
 done < <(grep -rnE "$include\"" include 2>/dev/null || true)

@@ -38,6 +38,29 @@ protected:
                       " uvol_generate '" + out_ + "' -n 50");
   }
 
+  /** \param step from one failing allocation to the next */
+  void
+  failAllocations(int step)
+  {
+    for (int i = 0; i < 30; ++i)
+      writeFile(folder_ / "other" + std::to_string(i), "");
+    const std::string command =
+        " uvol_convert '" + in_ + "' '" + (folder_ / "out.npz") + "'";
+    const std::string counts = folder_ / "counts",
+                      library = "LD_PRELOAD=" PCL_UVOL_FAULTS;
+    ASSERT_EQ(0,
+              runCommand(library + " UVOL_FAULTS=count=" + counts + command).exit_code);
+    const std::string text = readFile(counts), call = "malloc ";
+    const int calls = std::stoi(text.substr(text.find(call) + call.size()));
+    ASSERT_GT(calls, 100);
+    for (int i = 1; i <= calls; i += step) {
+      const auto result =
+          runCommand(library + " UVOL_FAULTS=malloc:" + std::to_string(i) + command);
+      EXPECT_TRUE(result.exit_code >= 0 && result.exit_code <= 2)
+          << i << ": " << result.exit_code << result.err;
+    }
+  }
+
   uvol_test::TemporaryFolder folder_;
   const std::string in_ = folder_ / "in.csv", out_ = folder_ / "out.csv";
 };
@@ -87,23 +110,12 @@ TEST_F(WritingUnderFaults, TheNextRunTakesAwayWhatAKilledOneLeft)
 /** Folders are looked through for what killed runs left. */
 TEST_F(WritingUnderFaults, EveryLackOfMemoryIsASentence)
 {
-  for (int i = 0; i < 30; ++i)
-    writeFile(folder_ / "other" + std::to_string(i), "");
-  const std::string command =
-      " uvol_convert '" + in_ + "' '" + (folder_ / "out.npz") + "'";
-  const std::string counts = folder_ / "counts",
-                    library = "LD_PRELOAD=" PCL_UVOL_FAULTS;
-  ASSERT_EQ(0,
-            runCommand(library + " UVOL_FAULTS=count=" + counts + command).exit_code);
-  const std::string text = readFile(counts), call = "malloc ";
-  const int calls = std::stoi(text.substr(text.find(call) + call.size()));
-  ASSERT_GT(calls, 100);
-  for (int i = 1; i <= calls; i += 3) {
-    const auto result =
-        runCommand(library + " UVOL_FAULTS=malloc:" + std::to_string(i) + command);
-    EXPECT_TRUE(result.exit_code >= 0 && result.exit_code <= 2)
-        << i << ": " << result.exit_code << result.err;
-  }
+  failAllocations(40);
+}
+
+TEST_F(WritingUnderFaults, EveryLackOfMemoryIsASentence_long)
+{
+  failAllocations(1);
 }
 
 TEST(FilesOfTools, NoOutputIsAnInputOrAnotherOutput)

@@ -82,6 +82,10 @@ makeView(const CloudBytes& bytes, const std::vector<pcl::PCLPointField>& fields)
 PCL_UVOL_EXPORTS void
 checkIndices(const pcl::Indices& indices, std::size_t count, const char* stage);
 
+/** \brief Room for the indices of all points, which PCL fills. */
+PCL_UVOL_EXPORTS pcl::IndicesPtr
+makeIndices(std::size_t count);
+
 } // namespace detail
 
 /** \brief View of a cloud of a registered point type with x, y, z of any numeric type.
@@ -152,6 +156,10 @@ protected:
   void
   withInput(const char* stage, const WorkT& work)
   {
+    if (this->input_ && !this->indices_) {
+      this->fake_indices_ = true;
+      this->indices_ = detail::makeIndices(viewOf(*this->input_).count);
+    }
     if (!this->input_ || !this->initCompute())
       throw InvalidArgument(std::string(stage) +
                             " has no input cloud: call setInputCloud.");

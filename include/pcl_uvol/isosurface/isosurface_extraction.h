@@ -327,7 +327,7 @@ protected:
 
 private:
   void
-  updateSamples(const CloudView& cloud, std::vector<std::uint32_t>&& use);
+  updateSamples(const CloudView& cloud, std::vector<std::uint32_t> use);
 
   void
   updateScalar(const CloudView& cloud, const pcl::Indices& indices);
@@ -344,7 +344,7 @@ private:
       candidates_; // of samples_, as these parameters ask:
   NeighborSource candidate_source_ = NeighborSource::KdTree;
   std::uint32_t candidate_cells_ = 0;
-  std::vector<std::uint32_t> sampled_;             // input points behind samples_
+  std::uint64_t sampled_ = 0;                      // fingerprint of the input points
   std::uint64_t sampled_fingerprint_ = 0;          // of all input positions
   Eigen::Array3f sampled_scale_{1.0f, 1.0f, 1.0f}; // scale behind samples_
   Report sampled_report_;                          // what building samples_ counted

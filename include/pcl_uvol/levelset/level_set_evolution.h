@@ -29,7 +29,8 @@ namespace detail {
 
 /** \brief The kernel of LevelSetEvolution for any cloud.
  * \param snapshot told after every snapshot_steps steps; 0: never
- * \param sampling set, and the surface examined; null: neither
+ * \param is_examined whether the surface is examined, see
+ * LevelSetEvolution::setExamined
  * \throws InvalidArgument, Diverged as LevelSetEvolution::evolve */
 PCL_UVOL_EXPORTS LevelSet
 evolveLevelSet(const CloudView& cloud,
@@ -37,7 +38,7 @@ evolveLevelSet(const CloudView& cloud,
                const LevelSetParameters& parameters,
                std::size_t snapshot_steps,
                const SnapshotCallback& snapshot,
-               std::optional<SamplingSummary>* sampling,
+               bool is_examined,
                unsigned threads,
                Report& report);
 
@@ -299,17 +300,17 @@ public:
     return parameters_.band_width;
   }
 
-  /** \brief Whether evolve() looks at how samples lie (getSampling()), and where that
-   * is not all around, at what the surface rests on: the report then counts as
-   * examined, examined_bridged and examined_rim how many isopoints on edges were looked
-   * at, at most 1024, and those in gaps and on rims. Default: not. */
+  /** \brief Whether evolve(), where samples do not lie all around, looks at what the
+   * surface rests on: the report then counts as examined, examined_bridged and
+   * examined_rim how many isopoints on edges were looked at, at most 1024, and those in
+   * gaps and on rims. Default: not. */
   void
   setExamined(bool is_examined)
   {
     is_examined_ = is_examined;
   }
 
-  /** \return Whether evolve() looks at how samples lie. */
+  /** \return Whether evolve() looks at what the surface rests on. */
   bool
   isExamined() const
   {
@@ -375,7 +376,7 @@ public:
     return deviations_;
   }
 
-  /** \brief How samples lie, if the last evolve() looked at it. */
+  /** \brief How samples lie, after the last evolve(). */
   const std::optional<SamplingSummary>&
   getSampling() const
   {
@@ -402,24 +403,25 @@ template <typename TakeT>
 void
 LevelSetEvolution<PointT>::evolveInput(const TakeT& take)
 {
-  this->withInput(
-      "LevelSetEvolution", [&](const CloudView& cloud, const pcl::Indices& indices) {
-        startReport();
-        summary_ = LevelSetSummary();
-        sampling_.reset();
-        LevelSet evolved = detail::evolveLevelSet(cloud,
-                                                  indices,
-                                                  parameters_,
-                                                  snapshot_steps_,
-                                                  snapshot_,
-                                                  is_examined_ ? &sampling_ : nullptr,
-                                                  threads_,
-                                                  report_);
-        summary_ = evolved.summary;
-        sources_ = evolved.sources;
-        deviations_ = std::move(evolved.deviations);
-        take(cloud, indices, evolved);
-      });
+  this->withInput("LevelSetEvolution",
+                  [&](const CloudView& cloud, const pcl::Indices& indices) {
+                    startReport();
+                    summary_ = LevelSetSummary();
+                    sampling_.reset();
+                    LevelSet evolved = detail::evolveLevelSet(cloud,
+                                                              indices,
+                                                              parameters_,
+                                                              snapshot_steps_,
+                                                              snapshot_,
+                                                              is_examined_,
+                                                              threads_,
+                                                              report_);
+                    summary_ = evolved.summary;
+                    sampling_ = evolved.sampling;
+                    sources_ = evolved.sources;
+                    deviations_ = std::move(evolved.deviations);
+                    take(cloud, indices, evolved);
+                  });
 }
 
 template <typename PointT>

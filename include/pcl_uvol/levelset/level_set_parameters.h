@@ -7,6 +7,7 @@
 #include <pcl_uvol/common/parameters.h>
 #include <pcl_uvol/derivatives/gradient_estimation.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
+#include <pcl_uvol/neighbors/neighbor_graph.h>
 
 #include <Eigen/Core>
 
@@ -287,6 +288,7 @@ struct LevelSet {
   std::vector<std::uint32_t> sources; ///< the points whose values the samples have: of
                                       ///< merged ones one
   LevelSetSummary summary;
+  std::optional<SamplingSummary> sampling; ///< how the samples lie
 };
 
 } // namespace pcl_uvol

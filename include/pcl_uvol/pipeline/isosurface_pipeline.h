@@ -397,9 +397,11 @@ private:
   SurfaceTriangles
   extract(const IsosurfaceParameters& parameters, Report& report);
 
+  /** \param sampling set if a level set has looked at it */
   SurfaceTriangles
   extractLevelSets(const IsosurfaceParameters& parameters,
-                   std::vector<LevelSetSummary>& summaries);
+                   std::vector<LevelSetSummary>& summaries,
+                   std::optional<SamplingSummary>& sampling);
 
   /** The points to take. */
   pcl::Indices

@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "neighbors/tree_kernel.h"
+
+#include "common/lanes.h"
+
+namespace pcl_uvol::PCL_UVOL_SIMD {
+
+namespace {
+
+constexpr float infinity = __builtin_inff();
+
+template <int registers>
+float
+valueAmong(const float* values, int count, int rank)
+{
+  Floats value[registers];
+  Ints lesser[registers];
+  for (int r = 0; r < registers; ++r) {
+    value[r] = load<Floats>(values + r * lanes);
+    value[r] = laneNumbers() + r * lanes < count ? value[r] : fill(infinity);
+    lesser[r] = Ints{};
+  }
+  for (int i = 0; i < count; ++i)
+    for (int r = 0; r < registers; ++r)
+      lesser[r] -= fill(values[i]) < value[r];
+  Floats largest = fill(-infinity);
+  for (int r = 0; r < registers; ++r)
+    largest = maximum(largest, lesser[r] <= rank ? value[r] : fill(-infinity));
+  float found = largest[0];
+  for (int lane = 1; lane < lanes; ++lane)
+    found = found > largest[lane] ? found : largest[lane];
+  return found;
+}
+
+/** Counts of the lesser are exact, so that no number is looked for twice. */
+float
+valueAtRank(const float* values, int count, int rank)
+{
+  constexpr int all = TreeKernels::most_values / lanes;
+  if (count <= lanes)
+    return valueAmong<1>(values, count, rank);
+  if (all > 2 && count <= 2 * lanes)
+    return valueAmong<2>(values, count, rank);
+  return valueAmong<all>(values, count, rank);
+}
+
+#if defined(__AVX2__)
+
+constexpr int records_per_register = lanes / 4;
+
+/** A part of the records, the others 0. */
+Floats
+loadRecords(const float* records, int count)
+{
+  if (count >= records_per_register)
+    return load<Floats>(records);
+  Floats loaded{};
+  for (int i = 0; i < 4 * count; ++i)
+    loaded[i] = records[i];
+  return loaded;
+}
+
+/** Every lane of a register from another lane of it. */
+template <typename Register>
+Register
+shuffled(const Register& numbers, const Ints& from)
+{
+  return __builtin_shuffle(numbers, from);
+}
+
+/** Samples of a subtree, one per lane. The samples of a node fill a group of lanes from
+ * its first one on; what is left of a group has infinite coordinates. */
+class Subtree {
+public:
+  Subtree(float* records, int count)
+      : size_(fill(count))
+      , records_(records)
+  {
+    Floats loaded[4];
+    for (int r = 0; r < 4; ++r)
+      loaded[r] = loadRecords(records + r * lanes, count - r * records_per_register);
+    const Ints lane = laneNumbers();
+    constexpr int half = lanes / 2;
+    const Ints both = lane < half ? lane : lane + half;
+    const auto column = [&](int number) {
+      const Ints every_fourth = (4 * lane + number) & (2 * lanes - 1);
+      return __builtin_shuffle(__builtin_shuffle(loaded[0], loaded[1], every_fourth),
+                               __builtin_shuffle(loaded[2], loaded[3], every_fourth),
+                               both);
+    };
+    for (int axis = 0; axis < 3; ++axis)
+      position_[axis] = lane < count ? column(axis) : fill(infinity);
+    index_ = bitsOf(column(3));
+  }
+
+  /** Sides of the root's cell. */
+  void
+  setCell(const float* low, const float* high)
+  {
+    for (int axis = 0; axis < 3; ++axis) {
+      low_[axis] = fill(low[axis]);
+      high_[axis] = fill(high[axis]);
+    }
+  }
+
+  /** Part the nodes of a level.
+   * \tparam group lanes per node
+   * \tparam by_cell whether splits run across the longest sides of cells
+   * \param axis of the splits otherwise
+   * \param planes gets those of the level's nodes */
+  template <int group, bool by_cell>
+  void
+  part(int axis, SplitPlane* planes, std::int8_t* axes)
+  {
+    const Ints axis_of = by_cell ? findLongestSides() : fill(axis);
+    const Ints lane = laneNumbers(), within = lane & (group - 1);
+    const Ints lower_half = (size_ + 1) >> 1;
+    const Ints rank = rankWithin<group>(axis_of);
+    // Lower halves to the first lanes of a group, upper ones to the middle.
+    const Ints to =
+        lane - within + (rank < lower_half ? rank : rank - lower_half + group / 2);
+    Ints from = lane;
+    for (int step = 0; step < group; ++step) {
+      const Ints other = lane - within + ((lane + step) & (group - 1));
+      from = shuffled(to, other) == lane ? other : from;
+    }
+    const Ints sizes = size_;
+    size_ = within >= group / 2 ? size_ - lower_half : lower_half;
+    const Ints is_filled = (lane & (group / 2 - 1)) < size_;
+    for (Floats& coordinate : position_)
+      coordinate = is_filled ? shuffled(coordinate, from) : fill(infinity);
+    index_ = shuffled(index_, from);
+    writePlanes<group, by_cell>(axis_of, sizes, planes, axes);
+  }
+
+  /** The records in leaf order. */
+  void
+  write() const
+  {
+    float coordinate[3][lanes];
+    std::int32_t index[lanes], size[lanes];
+    for (int axis = 0; axis < 3; ++axis)
+      store(coordinate[axis], position_[axis]);
+    store(index, index_);
+    store(size, size_);
+    float* record = records_;
+    for (int lane = 0; lane < lanes; ++lane)
+      if (size[lane] > 0) {
+        for (int axis = 0; axis < 3; ++axis)
+          record[axis] = coordinate[axis][lane];
+        __builtin_memcpy(record + 3, index + lane, sizeof index[lane]);
+        record += 4;
+      }
+  }
+
+private:
+  static Floats
+  choose(const Ints& axis, const Floats (&numbers)[3])
+  {
+    return axis == 0 ? numbers[0] : axis == 1 ? numbers[1] : numbers[2];
+  }
+
+  Ints
+  findLongestSides() const
+  {
+    const Floats side[3] = {high_[0] - low_[0], high_[1] - low_[1], high_[2] - low_[2]};
+    Ints longest = side[1] > side[0] ? fill(1) : fill(0);
+    return side[2] > maximum(side[0], side[1]) ? fill(2) : longest;
+  }
+
+  /** Of every sample the number of those of its group before it in the total order. */
+  template <int group>
+  Ints
+  rankWithin(const Ints& axis) const
+  {
+    const Ints lane = laneNumbers(), within = lane & (group - 1);
+    const Floats x = choose(axis, position_);
+    Ints rank{}, is_equal{};
+    for (int step = 1; step < group; ++step) {
+      const Ints other = lane - within + ((lane + step) & (group - 1));
+      const Floats other_x = shuffled(x, other);
+      rank -= (other_x < x) | ((other_x == x) & (other < lane));
+      is_equal |= other_x == x;
+    }
+    if (laneBits(is_equal & (within < size_)) == 0)
+      return rank;
+    // Samples of equal coordinates: the other two decide.
+    const Ints second = axis == 2 ? fill(0) : axis + 1;
+    const Floats y = choose(second, position_),
+                 z = choose(second == 2 ? fill(0) : second + 1, position_);
+    rank = Ints{};
+    for (int step = 1; step < group; ++step) {
+      const Ints other = lane - within + ((lane + step) & (group - 1));
+      const Floats other_x = shuffled(x, other), other_y = shuffled(y, other),
+                   other_z = shuffled(z, other);
+      const Ints by_z = (other_z < z) | ((other_z == z) & (other < lane));
+      const Ints by_y = (other_y < y) | ((other_y == y) & by_z);
+      rank -= (other_x < x) | ((other_x == x) & by_y);
+    }
+    return rank;
+  }
+
+  template <int group, bool by_cell>
+  void
+  writePlanes(const Ints& axis,
+              const Ints& sizes,
+              SplitPlane* planes,
+              std::int8_t* axes)
+  {
+    float coordinate[lanes], plane_of[lanes];
+    std::int32_t index[lanes], size[lanes], axis_of[lanes];
+    store(coordinate, choose(axis, position_));
+    store(index, index_);
+    store(size, sizes);
+    store(axis_of, axis);
+    for (int begin = 0; begin < lanes; begin += group) {
+      float plane = 0.0f;
+      if (size[begin] > 1) {
+        const int below = begin + (size[begin] + 1) / 2 - 1;
+        plane = midway(coordinate[below], coordinate[begin + group / 2]);
+        planes[begin / group] = {plane, static_cast<std::uint32_t>(index[below])};
+        if (by_cell)
+          axes[begin / group] = static_cast<std::int8_t>(axis_of[begin]);
+      }
+      for (int lane = begin; by_cell && lane < begin + group; ++lane)
+        plane_of[lane] = plane;
+    }
+    if (by_cell)
+      cutCells(axis, load<Floats>(plane_of), laneNumbers() & (group / 2));
+  }
+
+  void
+  cutCells(const Ints& axis, const Floats& plane, const Ints& is_above)
+  {
+    for (int a = 0; a < 3; ++a) {
+      const Ints is_cut = axis == a;
+      low_[a] = (is_cut & (is_above != 0)) ? plane : low_[a];
+      high_[a] = (is_cut & (is_above == 0)) ? plane : high_[a];
+    }
+  }
+
+  Floats position_[3], low_[3], high_[3];
+  Ints index_, size_; // samples of the node that a lane belongs to
+  float* records_;
+};
+
+/** The levels from a group of lanes down to pairs. */
+template <int group, bool by_cell>
+void
+partFrom(Subtree& subtree,
+         std::uint64_t number,
+         const std::int8_t* cycle,
+         SplitPlane* planes,
+         std::int8_t* axes)
+{
+  if constexpr (group > 1) {
+    subtree.part<group, by_cell>(*cycle, planes + number, axes + number);
+    partFrom<group / 2, by_cell>(subtree, 2 * number, cycle + 1, planes, axes);
+  }
+}
+
+void
+build(float* records,
+      int count,
+      std::uint64_t number,
+      const std::int8_t* cycle,
+      const float* low,
+      const float* high,
+      SplitPlane* planes,
+      std::int8_t* axes)
+{
+  Subtree subtree(records, count);
+  if (low == nullptr)
+    partFrom<lanes, false>(subtree, number, cycle, planes, axes);
+  else {
+    subtree.setCell(low, high);
+    partFrom<lanes, true>(subtree, number, cycle, planes, axes);
+  }
+  subtree.write();
+}
+
+constexpr std::uint32_t most_in_registers = lanes;
+#else
+constexpr std::uint32_t most_in_registers = 1; // lanes cannot be shuffled freely
+constexpr decltype(TreeKernels::build) build = nullptr;
+#endif
+
+} // namespace
+
+const TreeKernels tree_kernels{valueAtRank, most_in_registers, build};
+
+} // namespace pcl_uvol::PCL_UVOL_SIMD
