@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "distributed/piece.h"
 
+#include "common/large_array.h"
 #include "common/parallel.h"
 #include <pcl_uvol/common/exceptions.h>
 
@@ -228,7 +229,7 @@ Piece::build(const Decomposition& decomposition,
   KdTree tree;
   const bool distinct = tree.build(
       records, decomposition.getAxes(), decomposition.getLevels(), threads, step);
-  samples.positions.reserve(records.size() + anchors_per_cell);
+  reserveLarge(samples.positions, records.size() + anchors_per_cell);
   samples.positions.resize(records.size());
   if (!distinct) {
     for (const SampleRecord& record : records)
@@ -236,8 +237,8 @@ Piece::build(const Decomposition& decomposition,
     return std::nullopt;
   }
   Samples ordered;
-  ordered.values.resize(records.size());
-  ordered.sources.resize(records.size());
+  resizeLarge(ordered.values, records.size());
+  resizeLarge(ordered.sources, records.size());
   parallelBlocks(records.size(), piece_block, threads, [&](auto begin, auto end) {
     for (std::size_t i = begin; i < end; ++i) {
       samples.positions[i] = records[i].position;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "distributed/samples.h"
 
+#include "common/large_array.h"
 #include "common/parallel.h"
 #include "distributed/byte_stream.h"
 #include "neighbors/sample_values.h"
@@ -21,17 +22,17 @@ constexpr std::size_t scatter_block = 1u << 14;
 void
 Samples::reserve(std::size_t count)
 {
-  positions.reserve(count);
-  values.reserve(count);
-  sources.reserve(count);
+  reserveLarge(positions, count);
+  reserveLarge(values, count);
+  reserveLarge(sources, count);
 }
 
 void
 Samples::resize(std::size_t count)
 {
-  positions.resize(count);
-  values.resize(count);
-  sources.resize(count);
+  resizeLarge(positions, count);
+  resizeLarge(values, count);
+  resizeLarge(sources, count);
 }
 
 void

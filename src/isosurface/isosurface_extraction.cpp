@@ -51,7 +51,7 @@ checkParameters(const IsosurfaceParameters& parameters)
 
 void
 IsosurfaceExtractionBase::updateSamples(const CloudView& cloud,
-                                        std::vector<std::uint32_t> use)
+                                        const std::vector<std::uint32_t>& use)
 {
   const Eigen::Array3f& scale = parameters_.scale;
   const std::uint64_t fingerprint = computeFingerprint(use);
@@ -119,7 +119,8 @@ IsosurfaceExtractionBase::updateScalar(const CloudView& cloud,
     use = pointsWithValue(values, indices, field);
   }
   const std::uint64_t without_value = indices.size() - use.size();
-  updateSamples(cloud, std::move(use));
+  updateSamples(cloud, use);
+  use = std::vector<std::uint32_t>(); // what follows takes its memory
   report_.count("no_value", without_value);
   report_.count("samples", samples_->size());
 

@@ -61,11 +61,29 @@ loadRecords(const float* records, int count)
 }
 
 /** Every lane of a register from another lane of it. */
-template <typename Register>
-Register
-shuffled(const Register& numbers, const Ints& from)
+Ints
+shuffled(const Ints& numbers, const Ints& from)
 {
-  return __builtin_shuffle(numbers, from);
+#if defined(__AVX512F__)
+  return bitCast<Ints>(_mm512_maskz_permutexvar_epi32(
+      0xffff, bitCast<__m512i>(from), bitCast<__m512i>(numbers)));
+#else
+  return bitCast<Ints>(
+      _mm256_permutevar8x32_epi32(bitCast<__m256i>(numbers), bitCast<__m256i>(from)));
+#endif
+}
+
+Floats
+shuffled(const Floats& numbers, const Ints& from)
+{
+  return fromBits(shuffled(bitsOf(numbers), from));
+}
+
+/** Every lane from a lane of two registers. */
+Floats
+shuffled(const Floats& first, const Floats& second, const Ints& from)
+{
+  return from < lanes ? shuffled(first, from) : shuffled(second, from - lanes);
 }
 
 /** Samples of a subtree, one per lane. The samples of a node fill a group of lanes from
@@ -84,9 +102,9 @@ public:
     const Ints both = lane < half ? lane : lane + half;
     const auto column = [&](int number) {
       const Ints every_fourth = (4 * lane + number) & (2 * lanes - 1);
-      return __builtin_shuffle(__builtin_shuffle(loaded[0], loaded[1], every_fourth),
-                               __builtin_shuffle(loaded[2], loaded[3], every_fourth),
-                               both);
+      return shuffled(shuffled(loaded[0], loaded[1], every_fourth),
+                      shuffled(loaded[2], loaded[3], every_fourth),
+                      both);
     };
     for (int axis = 0; axis < 3; ++axis)
       position_[axis] = lane < count ? column(axis) : fill(infinity);

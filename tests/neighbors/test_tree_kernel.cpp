@@ -51,6 +51,7 @@ makeRecords(std::size_t count, std::uint32_t values, std::uint64_t seed)
 /** What a tree is made of, by sorting. */
 struct PlainTree {
   AxisCycle cycle;
+  std::vector<int> axis_of_depth; // the same
   std::vector<SplitPlane> planes; // with input indices
   std::vector<int> axes;
 
@@ -59,7 +60,7 @@ struct PlainTree {
   {
     if (node.isLeaf())
       return;
-    int axis = cycle[static_cast<std::size_t>(node.depth)];
+    int axis = axis_of_depth[static_cast<std::size_t>(node.depth)];
     if (rule == SplitRule::LongestSide) {
       axis = 0;
       for (int other = 1; other < 3; ++other)
@@ -104,6 +105,7 @@ buildPlainly(Records& records, SplitRule rule)
   PlainTree tree;
   tree.cycle = KdTree::cycleOver(
       {box.low[0] < box.high[0], box.low[1] < box.high[1], box.low[2] < box.high[2]});
+  tree.axis_of_depth.assign(tree.cycle.begin(), tree.cycle.end());
   tree.planes.resize(numbers);
   tree.axes.resize(numbers, -1);
   tree.build(records, {1, 0, static_cast<std::uint32_t>(records.size()), 0}, box, rule);

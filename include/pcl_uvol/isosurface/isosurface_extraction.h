@@ -327,7 +327,7 @@ protected:
 
 private:
   void
-  updateSamples(const CloudView& cloud, std::vector<std::uint32_t> use);
+  updateSamples(const CloudView& cloud, const std::vector<std::uint32_t>& use);
 
   void
   updateScalar(const CloudView& cloud, const pcl::Indices& indices);
