@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl_uvol/common/stage.h>
 
+#include <algorithm>
 #include <new>
 
 namespace pcl_uvol {
@@ -79,9 +80,10 @@ StepTimer::advance(std::uint64_t work)
   constexpr double smallest_step = 0.005;
   done_ += work;
   const std::lock_guard<std::mutex> lock(telling_);
-  const std::uint64_t done = done_;
-  if (done < total_ &&
-      static_cast<double>(done - told_) < smallest_step * static_cast<double>(total_))
+  const std::uint64_t done = std::min<std::uint64_t>(done_, total_); // work done twice
+  if (done == told_ ||
+      (done < total_ &&
+       static_cast<double>(done - told_) < smallest_step * static_cast<double>(total_)))
     return;
   told_ = done;
   report_.progress(step_, static_cast<double>(done) / static_cast<double>(total_));

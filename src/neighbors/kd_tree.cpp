@@ -4,7 +4,6 @@
 #include "neighbors/kd_tree.h"
 
 #include "common/parallel.h"
-#include "neighbors/equal_positions.h"
 #include "neighbors/kernel_tables.h"
 #include "neighbors/record_partition.h"
 
@@ -22,8 +21,6 @@ namespace {
 constexpr std::uint32_t task_samples = 1u << 14, range_task_samples = 1u << 18;
 
 constexpr std::size_t block_samples = 1u << 14;
-
-static_assert(task_samples <= EqualPositions::most_records);
 
 /** Smallest power of two of parts that leaves no part more than that many samples:
  * nodes that hold more have lower numbers. */
@@ -72,21 +69,21 @@ public:
     return axes_[static_cast<std::size_t>(node.depth)];
   }
 
-  void
+  bool
   buildInRegisters(const TreeKernels& kernels,
                    const KdNode& node,
                    const Cell&,
                    SampleRecord* first,
                    SplitPlane* planes) const
   {
-    kernels.build(first->position.x,
-                  static_cast<int>(node.count),
-                  node.number,
-                  axes_.data() + node.depth,
-                  nullptr,
-                  nullptr,
-                  planes,
-                  nullptr);
+    return kernels.build(first->position.x,
+                         static_cast<int>(node.count),
+                         node.number,
+                         axes_.data() + node.depth,
+                         nullptr,
+                         nullptr,
+                         planes,
+                         nullptr);
   }
 
   static Cell
@@ -132,21 +129,21 @@ public:
     return axes_[node.number];
   }
 
-  void
+  bool
   buildInRegisters(const TreeKernels& kernels,
                    const KdNode& node,
                    const Cell& cell,
                    SampleRecord* first,
                    SplitPlane* planes) const
   {
-    kernels.build(first->position.x,
-                  static_cast<int>(node.count),
-                  node.number,
-                  no_cycle.data(),
-                  cell.low.x,
-                  cell.high.x,
-                  planes,
-                  axes_.data());
+    return kernels.build(first->position.x,
+                         static_cast<int>(node.count),
+                         node.number,
+                         no_cycle.data(),
+                         cell.low.x,
+                         cell.high.x,
+                         planes,
+                         axes_.data());
   }
 
   static Cell
@@ -169,8 +166,8 @@ private:
   LargeArray<std::int8_t>& axes_; // by node number
 };
 
-/** Parts records from the root down to blocks, which tell whether positions are equal;
- * only where none are the rest of the tree is of use.
+/** Parts records from the root down to single ones. Equal positions, which no cut can
+ * part, are left out and side by side: then there is no tree.
  * \tparam Axes CycledAxes or LongestSides */
 template <typename Axes>
 class Builder {
@@ -187,7 +184,6 @@ public:
       , planes_(planes)
       , boxes_(boxes)
       , step_(step)
-      , below_(2 * countParts(static_cast<std::uint32_t>(records.size()), task_samples))
   {
   }
 
@@ -195,85 +191,33 @@ public:
   bool
   build(const KdNode& root, const Cell& cell)
   {
-    partToBlocks(root, cell);
-    if (has_equals_)
-      return false;
-    buildBlocks(root, cell);
-    return true;
+    buildByTasks(root, cell);
+    return !has_equals_;
   }
 
 private:
-  /** Where a cut runs through equal positions, they stay together between the others.
-   */
-  void
-  partToBlocks(const KdNode& node, const Cell& cell)
-  {
-    if (node.count < task_samples) {
-      inspectBlock(node);
-      return;
-    }
-    KdNode left = node.left(), right = node.right();
-    const int axis = axes_.choose(node, cell);
-    const RecordCut cut = split(node, axis);
-    below_[node.number] = cut.below->position;
-    if (cut.is_among_equals) {
-      has_equals_.store(true, std::memory_order_relaxed);
-      const auto [less_end, greater] = partAround(node, axis, cut.below->position);
-      left.count = less_end - node.begin;
-      right.begin = greater;
-      right.count = node.begin + node.count - greater;
-    }
-    const float plane = planes_[node.number].coordinate;
-    TaskGroup::fork([&] { partToBlocks(left, Axes::cutAbove(cell, axis, plane)); },
-                    [&] { partToBlocks(right, Axes::cutBelow(cell, axis, plane)); });
-  }
-
-  /** Records below a position, equal to it and above it; returns the ends of the first
-   * two parts. */
-  std::pair<std::uint32_t, std::uint32_t>
-  partAround(const KdNode& node, int axis, const Position position)
-  {
-    SampleRecord* const first = records_.data() + node.begin;
-    SampleRecord* const last = first + node.count;
-    SampleRecord* const less_end =
-        std::partition(first, last, [&](const SampleRecord& record) {
-          return lessAlong(axis, record.position, position);
-        });
-    SampleRecord* const greater =
-        std::partition(less_end, last, [&](const SampleRecord& record) {
-          return !lessAlong(axis, position, record.position);
-        });
-    return {static_cast<std::uint32_t>(less_end - records_.data()),
-            static_cast<std::uint32_t>(greater - records_.data())};
-  }
+  /** What a node is parted into. */
+  struct Halves {
+    KdNode left, right;
+    Cell lower, upper;
+    Position below; ///< the last one below the plane
+  };
 
   void
-  inspectBlock(const KdNode& block)
-  {
-    SampleRecord* const first = records_.data() + block.begin;
-    if (!EqualPositions(block.count).areAmong(first, block.count))
-      return;
-    has_equals_.store(true, std::memory_order_relaxed);
-    std::sort(first, first + block.count, [](const auto& a, const auto& b) {
-      return lessAlong(0, a.position, b.position);
-    });
-  }
-
-  void
-  buildBlocks(const KdNode& node, const Cell& cell)
+  buildByTasks(const KdNode& node, const Cell& cell)
   {
     if (node.count < task_samples) {
       buildBlock(node, cell);
       step_.advance(node.count);
       return;
     }
-    const int axis = axes_.choose(node, cell);
-    const float plane = planes_[node.number].coordinate;
-    TaskGroup::fork(
-        [&] { buildBlocks(node.left(), Axes::cutAbove(cell, axis, plane)); },
-        [&] { buildBlocks(node.right(), Axes::cutBelow(cell, axis, plane)); });
+    const Halves halves = split(node, cell);
+    TaskGroup::fork([&] { buildByTasks(halves.left, halves.lower); },
+                    [&] { buildByTasks(halves.right, halves.upper); });
+    if (has_equals_)
+      return;
     joinBoxes(node);
-    planes_[node.number].below_sample = findSample(node.left(), below_[node.number]);
+    planes_[node.number].below_sample = findSample(halves.left, halves.below);
   }
 
   /** The place of a position that a subtree has. */
@@ -311,6 +255,8 @@ private:
       place_of[records[i].input_index] = node.begin + i;
       records[i].input_index = input_indices[records[i].input_index];
     }
+    if (has_equals_)
+      return;
     for (std::uint64_t first = node.number, nodes = 1; first < planes_.size();
          first *= 2, nodes *= 2)
       for (std::uint64_t i = first; i < first + nodes; ++i)
@@ -321,42 +267,73 @@ private:
   buildAlone(const KdNode& node, const Cell& cell)
   {
     if (KdTree::isBucket(node)) {
-      boxes_[node.number] = boxAround(node);
+      if (node.count > 0)
+        boxes_[node.number] = boxAround(node);
       buildBucket(node, cell);
       return;
     }
-    const int axis = axes_.choose(node, cell);
-    split(node, axis);
-    const float plane = planes_[node.number].coordinate;
-    buildAlone(node.left(), Axes::cutAbove(cell, axis, plane));
-    buildAlone(node.right(), Axes::cutBelow(cell, axis, plane));
+    const Halves halves = split(node, cell);
+    buildAlone(halves.left, halves.lower);
+    buildAlone(halves.right, halves.upper);
     joinBoxes(node);
   }
 
   void
   buildBucket(const KdNode& node, const Cell& cell)
   {
-    if (node.isLeaf())
+    if (node.count < 2)
       return;
-    if (node.count <= kernels_.most_in_registers)
-      return axes_.buildInRegisters(
-          kernels_, node, cell, records_.data() + node.begin, planes_.data());
-    const int axis = axes_.choose(node, cell);
-    split(node, axis);
-    const float plane = planes_[node.number].coordinate;
-    buildBucket(node.left(), Axes::cutAbove(cell, axis, plane));
-    buildBucket(node.right(), Axes::cutBelow(cell, axis, plane));
+    SampleRecord* const first = records_.data() + node.begin;
+    if (node.count > kernels_.most_in_registers) {
+      const Halves halves = split(node, cell);
+      buildBucket(halves.left, halves.lower);
+      buildBucket(halves.right, halves.upper);
+    }
+    else if (!axes_.buildInRegisters(kernels_, node, cell, first, planes_.data())) {
+      has_equals_.store(true, std::memory_order_relaxed);
+      std::sort(first, first + node.count, [](const auto& a, const auto& b) {
+        return lessAlong(0, a.position, b.position);
+      });
+    }
   }
 
-  RecordCut
-  split(const KdNode& node, int axis)
+  Halves
+  split(const KdNode& node, const Cell& cell)
   {
     SampleRecord* const first = records_.data() + node.begin;
+    const int axis = axes_.choose(node, cell);
     const RecordCut cut = partition_.partAtCut(
         first, first + (node.count + 1) / 2, first + node.count, axis);
-    planes_[node.number] = {midway(cut.below->position[axis], cut.above),
-                            cut.below->input_index};
-    return cut;
+    const Position below = cut.below->position;
+    const float plane = midway(below[axis], cut.above);
+    planes_[node.number] = {plane, cut.below->input_index};
+    Halves halves{node.left(),
+                  node.right(),
+                  Axes::cutAbove(cell, axis, plane),
+                  Axes::cutBelow(cell, axis, plane),
+                  below};
+    if (cut.is_among_equals) {
+      has_equals_.store(true, std::memory_order_relaxed);
+      leaveOut(node, axis, halves);
+    }
+    return halves;
+  }
+
+  /** Bring the records of the position below the plane between the others. */
+  void
+  leaveOut(const KdNode& node, int axis, Halves& halves)
+  {
+    const auto first = records_.begin() + node.begin, last = first + node.count;
+    const auto less_end = std::partition(first, last, [&](const SampleRecord& record) {
+      return lessAlong(axis, record.position, halves.below);
+    });
+    const auto greater =
+        std::partition(less_end, last, [&](const SampleRecord& record) {
+          return !lessAlong(axis, halves.below, record.position);
+        });
+    halves.left.count = static_cast<std::uint32_t>(less_end - first);
+    halves.right.begin = static_cast<std::uint32_t>(greater - records_.begin());
+    halves.right.count = static_cast<std::uint32_t>(last - greater);
   }
 
   KdBox
@@ -385,7 +362,6 @@ private:
   StepTimer& step_;
   const TreeKernels& kernels_ = *tree_kernel_table.get();
   RecordPartition partition_{kernels_};
-  std::vector<Position> below_; // last before the planes of nodes above blocks
   std::atomic<bool> has_equals_{false};
 };
 

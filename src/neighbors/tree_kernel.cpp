@@ -151,6 +151,13 @@ public:
     writePlanes<group, by_cell>(axis_of, sizes, planes, axes);
   }
 
+  /** True once samples of one node were found at one position. */
+  bool
+  hasEquals() const
+  {
+    return laneBits(is_equal_) != 0;
+  }
+
   /** The records in leaf order. */
   void
   write() const
@@ -189,18 +196,18 @@ private:
   /** Of every sample the number of those of its group before it in the total order. */
   template <int group>
   Ints
-  rankWithin(const Ints& axis) const
+  rankWithin(const Ints& axis)
   {
     const Ints lane = laneNumbers(), within = lane & (group - 1);
     const Floats x = choose(axis, position_);
-    Ints rank{}, is_equal{};
+    Ints rank{}, is_tied{};
     for (int step = 1; step < group; ++step) {
       const Ints other = lane - within + ((lane + step) & (group - 1));
       const Floats other_x = shuffled(x, other);
       rank -= (other_x < x) | ((other_x == x) & (other < lane));
-      is_equal |= other_x == x;
+      is_tied |= other_x == x;
     }
-    if (laneBits(is_equal & (within < size_)) == 0)
+    if (laneBits(is_tied & (within < size_)) == 0)
       return rank;
     // Samples of equal coordinates: the other two decide.
     const Ints second = axis == 2 ? fill(0) : axis + 1;
@@ -214,6 +221,7 @@ private:
       const Ints by_z = (other_z < z) | ((other_z == z) & (other < lane));
       const Ints by_y = (other_y < y) | ((other_y == y) & by_z);
       rank -= (other_x < x) | ((other_x == x) & by_y);
+      is_equal_ |= (other_x == x) & (other_y == y) & (other_z == z) & (within < size_);
     }
     return rank;
   }
@@ -259,6 +267,7 @@ private:
 
   Floats position_[3], low_[3], high_[3];
   Ints index_, size_; // samples of the node that a lane belongs to
+  Ints is_equal_{};   // to another one of its node
   float* records_;
 };
 
@@ -277,7 +286,7 @@ partFrom(Subtree& subtree,
   }
 }
 
-void
+bool
 build(float* records,
       int count,
       std::uint64_t number,
@@ -295,6 +304,7 @@ build(float* records,
     partFrom<lanes, true>(subtree, number, cycle, planes, axes);
   }
   subtree.write();
+  return !subtree.hasEquals();
 }
 
 constexpr std::uint32_t most_in_registers = lanes;

@@ -34,15 +34,16 @@ struct TreeKernels {
   /** Samples of a subtree that registers hold: 16, 8, or 1 for none. */
   std::uint32_t most_in_registers;
 
-  /** \brief Build a subtree of at most that many samples of distinct positions.
+  /** \brief Build a subtree of at most that many samples.
    * \param records x, y, z and an index, one after another; brought into leaf order
    * \param number of the subtree's root
    * \param cycle axis of the splits, from the root's depth on
    * \param low,high corners of the root's cell: splits run across the longest sides of
    * cells instead; null for none
    * \param planes by node number, gets those of the subtree with indices of records
-   * \param axes by node number, gets those of the splits if there is a cell */
-  void (*build)(float* records,
+   * \param axes by node number, gets those of the splits if there is a cell
+   * \return false if positions are equal */
+  bool (*build)(float* records,
                 int count,
                 std::uint64_t number,
                 const std::int8_t* cycle,
