@@ -20,8 +20,6 @@ namespace {
  * fork, and small enough for the cache. Ranges cost a hundredth of the tree. */
 constexpr std::uint32_t task_samples = 1u << 14, range_task_samples = 1u << 18;
 
-constexpr std::size_t block_samples = 1u << 14;
-
 /** Smallest power of two of parts that leaves no part more than that many samples:
  * nodes that hold more have lower numbers. */
 std::size_t
@@ -244,7 +242,7 @@ private:
       input_indices[i] = records[i].input_index;
       records[i].input_index = i;
     }
-    // Planes that the last levels lack are looked at as well.
+    // Numbers without a node get a plane as well, since the loop below goes over all.
     for (std::uint64_t first = node.number, nodes = 1; first < planes_.size();
          first *= 2, nodes *= 2)
       std::fill_n(planes_.begin() + static_cast<std::ptrdiff_t>(first),
@@ -275,7 +273,8 @@ private:
     const Halves halves = split(node, cell);
     buildAlone(halves.left, halves.lower);
     buildAlone(halves.right, halves.upper);
-    joinBoxes(node);
+    if (!has_equals_) // else halves may be empty
+      joinBoxes(node);
   }
 
   void
@@ -438,6 +437,7 @@ KdTree::buildBy(SplitRule rule,
   root_ = {1, 0, static_cast<std::uint32_t>(records.size()), depth};
   axis_at_depth_ = axes;
   planes_.resize(countParts(root_.count, 1));
+  planes_.front() = {0.0f, 0}; // of no node
   boxes_.resize(2 * countParts(root_.count, bucket_samples));
   const auto buildWith = [&](const auto& chosen, const auto& cell) {
     Builder builder(chosen, records, planes_, boxes_, step);

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 namespace pcl_uvol {
 
@@ -33,21 +32,24 @@ public:
   RecordCut
   partAtCut(SampleRecord* first, SampleRecord* cut, SampleRecord* last, int axis) const
   {
-    constexpr float infinity = std::numeric_limits<float>::infinity();
     // All records before low are less than those between, all from high on are not.
     SampleRecord *low = first, *high = last;
     int by = axis; // that of the three coordinates which tells them apart
     while (true) {
       const float pivot = choosePivot(low, cut, high, by);
-      SampleRecord* boundary = partitionBelow(low, high, by, pivot);
+      SampleRecord* boundary = partition(low, high, [&](const SampleRecord& record) {
+        return record.position[by] < pivot;
+      });
       if (boundary == low) { // the pivot is the least
-        boundary = partitionBelow(low, high, by, std::nextafter(pivot, infinity));
+        boundary = partition(low, high, [&](const SampleRecord& record) {
+          return !(pivot < record.position[by]);
+        });
         if (boundary > cut) {
           // Equal coordinates on both sides of the cut: the next one decides.
           high = boundary;
           by = nextAxis(by);
           if (by == axis)
-            return {cut, pivot, true};
+            return {cut, pivot, true}; // there will be no plane
           continue;
         }
       }
@@ -62,20 +64,20 @@ private:
   using RecordRegister =
       float __attribute__((vector_size(sizeof(SampleRecord)), aligned(4), may_alias));
 
-  /** Bring records below the pivot to the front; returns the first of the others. Free
-   * of branches that depend on the data: they would be mispredicted every other time.
-   */
+  /** Bring low records to the front; returns the first of the others. Free of branches
+   * that depend on the data: they would be mispredicted every other time. */
+  template <typename IsLow>
   static SampleRecord*
-  partitionBelow(SampleRecord* first, SampleRecord* last, int axis, float pivot)
+  partition(SampleRecord* first, SampleRecord* last, const IsLow& is_low)
   {
     SampleRecord* boundary = first;
     for (SampleRecord* record = first; record != last; ++record) {
-      const bool is_below = record->position[axis] < pivot;
+      const bool moves = is_low(*record);
       const RecordRegister moved = *reinterpret_cast<RecordRegister*>(record);
       *reinterpret_cast<RecordRegister*>(record) =
           *reinterpret_cast<RecordRegister*>(boundary);
       *reinterpret_cast<RecordRegister*>(boundary) = moved;
-      boundary += static_cast<std::ptrdiff_t>(is_below);
+      boundary += static_cast<std::ptrdiff_t>(moves);
     }
     return boundary;
   }
@@ -99,7 +101,7 @@ private:
           });
     if (count > few)
       return sampleQuantile<few>(first, cut - first, count, axis, kernels_.valueAtRank);
-    float values[few];
+    float values[few] = {}; // whole registers are read
     for (std::ptrdiff_t i = 0; i < count; ++i)
       values[i] = first[i].position[axis];
     return kernels_.valueAtRank(

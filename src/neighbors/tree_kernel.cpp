@@ -32,7 +32,7 @@ valueAmong(const float* values, int count, int rank)
   return found;
 }
 
-/** Counts of the lesser are exact, so that no number is looked for twice. */
+/** In as few registers as hold the numbers. */
 float
 valueAtRank(const float* values, int count, int rank)
 {
@@ -48,15 +48,17 @@ valueAtRank(const float* values, int count, int rank)
 
 constexpr int records_per_register = lanes / 4;
 
-/** A part of the records, the others 0. */
+/** As many records as a register holds; those from count on, which may be negative,
+ * are 0. */
 Floats
 loadRecords(const float* records, int count)
 {
   if (count >= records_per_register)
     return load<Floats>(records);
   Floats loaded{};
-  for (int i = 0; i < 4 * count; ++i)
-    loaded[i] = records[i];
+  if (count > 0)
+    __builtin_memcpy(
+        &loaded, records, 4 * sizeof(float) * static_cast<unsigned>(count));
   return loaded;
 }
 
@@ -125,10 +127,11 @@ public:
    * \tparam group lanes per node
    * \tparam by_cell whether splits run across the longest sides of cells
    * \param axis of the splits otherwise
-   * \param planes gets those of the level's nodes */
+   * \param number of the level's first node
+   * \param planes by node number, as axes */
   template <int group, bool by_cell>
   void
-  part(int axis, SplitPlane* planes, std::int8_t* axes)
+  part(int axis, std::uint64_t number, SplitPlane* planes, std::int8_t* axes)
   {
     const Ints axis_of = by_cell ? findLongestSides() : fill(axis);
     const Ints lane = laneNumbers(), within = lane & (group - 1);
@@ -148,7 +151,7 @@ public:
     for (Floats& coordinate : position_)
       coordinate = is_filled ? shuffled(coordinate, from) : fill(infinity);
     index_ = shuffled(index_, from);
-    writePlanes<group, by_cell>(axis_of, sizes, planes, axes);
+    writePlanes<group, by_cell>(axis_of, sizes, number, planes, axes);
   }
 
   /** True once samples of one node were found at one position. */
@@ -230,6 +233,7 @@ private:
   void
   writePlanes(const Ints& axis,
               const Ints& sizes,
+              std::uint64_t number,
               SplitPlane* planes,
               std::int8_t* axes)
   {
@@ -244,9 +248,10 @@ private:
       if (size[begin] > 1) {
         const int below = begin + (size[begin] + 1) / 2 - 1;
         plane = midway(coordinate[below], coordinate[begin + group / 2]);
-        planes[begin / group] = {plane, static_cast<std::uint32_t>(index[below])};
+        const std::uint64_t node = number + static_cast<std::uint64_t>(begin / group);
+        planes[node] = {plane, static_cast<std::uint32_t>(index[below])};
         if (by_cell)
-          axes[begin / group] = static_cast<std::int8_t>(axis_of[begin]);
+          axes[node] = static_cast<std::int8_t>(axis_of[begin]);
       }
       for (int lane = begin; by_cell && lane < begin + group; ++lane)
         plane_of[lane] = plane;
@@ -281,7 +286,7 @@ partFrom(Subtree& subtree,
          std::int8_t* axes)
 {
   if constexpr (group > 1) {
-    subtree.part<group, by_cell>(*cycle, planes + number, axes + number);
+    subtree.part<group, by_cell>(*cycle, number, planes, axes);
     partFrom<group / 2, by_cell>(subtree, 2 * number, cycle + 1, planes, axes);
   }
 }

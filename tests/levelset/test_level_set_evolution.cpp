@@ -383,6 +383,7 @@ TEST(LevelSetEvolution, LooksAtHowSamplesLieWhereThatIsAskedFor)
   Evolution evolution;
   evolution.setMaximumSteps(3);
   const auto phi = evolve(evolution, lines);
+  EXPECT_TRUE(evolution.getSampling());
   EXPECT_EQ(0u, evolution.getReport().getCount("examined"));
   evolution.setExamined(true);
   EXPECT_EQ(phi, evolve(evolution, lines));

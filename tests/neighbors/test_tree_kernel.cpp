@@ -7,7 +7,12 @@
 
 #include <gtest/gtest.h>
 
+#if defined(__SSE__)
+#include <xmmintrin.h>
+#endif
+
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <string>
 #include <vector>
@@ -231,6 +236,26 @@ TEST(KdTree, IsThatBySortingForAnyNumberOfSamplesAndThreads)
           }
         }
 }
+
+#if defined(__SSE__)
+/** As a library linked with -ffast-math makes them count. */
+TEST(KdTree, EndsWhereDenormalNumbersCountAsZero)
+{
+  Records records = makeRecords(2000, 1u << 20, 5);
+  for (SampleRecord& record : records)
+    record.position[0] = std::abs(record.position[0]);
+  for (std::size_t i = 0; i < 1500; ++i)
+    records[i].position[0] = 0.0f;
+  Report report;
+  StepTimer step(report, "tree", records.size());
+  KdTree tree;
+  const unsigned before = _mm_getcsr();
+  _mm_setcsr(before | 0x8040u); // flush them, take them for 0
+  const bool is_built = tree.build(records, 1, step);
+  _mm_setcsr(before);
+  EXPECT_TRUE(is_built);
+}
+#endif
 
 TEST(KdTree, EqualPositionsComeOutSideBySide)
 {
