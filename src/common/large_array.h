@@ -57,7 +57,8 @@ public:
   }
 };
 
-/** \brief A vector whose resize() leaves new numbers as they are. */
+/** \brief A vector whose resize() does not set new elements to zero: members without an
+ * initializer are undefined until they are written. */
 template <typename T>
 using LargeArray = std::vector<T, LargeAllocator<T>>;
 
@@ -70,12 +71,13 @@ reserveLarge(Vector& vector, std::size_t count)
   askForLargePages(vector.data(), count * sizeof(typename Vector::value_type));
 }
 
-/** \brief The same, filled. */
+/** \brief resize(), which takes new memory for an empty vector on large pages; others
+ * grow as they do. */
 template <typename Vector>
 void
 resizeLarge(Vector& vector, std::size_t count)
 {
-  if (count > vector.capacity())
+  if (vector.empty())
     reserveLarge(vector, count);
   vector.resize(count);
 }

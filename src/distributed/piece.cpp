@@ -382,8 +382,8 @@ Piece::join(const std::vector<GhostBrick>& bricks, std::vector<KdTree>&& trees)
   SampleSet::Parts parts;
   parts.unit = old.unit;
   Samples joined;
+  reserveLarge(joined.positions, total + anchors_per_cell * blocks.size());
   joined.reserve(total);
-  joined.positions.reserve(total + anchors_per_cell * blocks.size());
   runs_.clear();
   std::vector<CellKey> cells;
   for (const Block& block : blocks) {

@@ -37,13 +37,13 @@ countExaminedRoots(const LevelSetInput& input, unsigned threads, Report& report)
 
 SamplingSummary
 examineSurface(const LevelSetInput& input,
-               bool has_roots,
+               bool is_examined,
                unsigned threads,
                Report& report)
 {
   const StepTimer timer(report, "sampling");
   const SamplingSummary sampling = summarizeSampling(*input.samples, threads);
-  if (has_roots && sampling.most != LocalDimension::Volume)
+  if (is_examined && sampling.most != LocalDimension::Volume)
     countExaminedRoots(input, threads, report);
   return sampling;
 }

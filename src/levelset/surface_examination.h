@@ -9,13 +9,13 @@
 namespace pcl_uvol {
 
 /** \brief Look at how samples lie.
- * \param has_roots whether isopoints are looked at as well
+ * \param is_examined whether isopoints are looked at as well
  * \param report with them, where they do not lie all around, gets the counts
  * "examined", "examined_bridged" and "examined_rim" of linear isopoints, see
  * countExamined */
 SamplingSummary
 examineSurface(const LevelSetInput& input,
-               bool has_roots,
+               bool is_examined,
                unsigned threads,
                Report& report);
 

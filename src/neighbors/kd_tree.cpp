@@ -67,21 +67,11 @@ public:
     return axes_[static_cast<std::size_t>(node.depth)];
   }
 
-  bool
-  buildInRegisters(const TreeKernels& kernels,
-                   const KdNode& node,
-                   const Cell&,
-                   SampleRecord* first,
-                   SplitPlane* planes) const
+  /** Say how a subtree in registers is split. */
+  void
+  setSplits(const KdNode& node, const Cell&, Subtree& subtree) const
   {
-    return kernels.build(first->position.x,
-                         static_cast<int>(node.count),
-                         node.number,
-                         axes_.data() + node.depth,
-                         nullptr,
-                         nullptr,
-                         planes,
-                         nullptr);
+    subtree.cycle = axes_.data() + node.depth;
   }
 
   static Cell
@@ -127,21 +117,12 @@ public:
     return axes_[node.number];
   }
 
-  bool
-  buildInRegisters(const TreeKernels& kernels,
-                   const KdNode& node,
-                   const Cell& cell,
-                   SampleRecord* first,
-                   SplitPlane* planes) const
+  void
+  setSplits(const KdNode&, const Cell& cell, Subtree& subtree) const
   {
-    return kernels.build(first->position.x,
-                         static_cast<int>(node.count),
-                         node.number,
-                         no_cycle.data(),
-                         cell.low.x,
-                         cell.high.x,
-                         planes,
-                         axes_.data());
+    subtree.low = cell.low.x;
+    subtree.high = cell.high.x;
+    subtree.axes = axes_.data();
   }
 
   static Cell
@@ -159,8 +140,6 @@ public:
   }
 
 private:
-  static constexpr AxisCycle no_cycle{};
-
   LargeArray<std::int8_t>& axes_; // by node number
 };
 
@@ -288,12 +267,24 @@ private:
       buildBucket(halves.left, halves.lower);
       buildBucket(halves.right, halves.upper);
     }
-    else if (!axes_.buildInRegisters(kernels_, node, cell, first, planes_.data())) {
+    else if (!buildInRegisters(node, cell)) {
       has_equals_.store(true, std::memory_order_relaxed);
       std::sort(first, first + node.count, [](const auto& a, const auto& b) {
         return lessAlong(0, a.position, b.position);
       });
     }
+  }
+
+  bool
+  buildInRegisters(const KdNode& node, const Cell& cell)
+  {
+    Subtree subtree{};
+    subtree.records = records_[node.begin].position.x;
+    subtree.count = static_cast<int>(node.count);
+    subtree.number = node.number;
+    subtree.planes = planes_.data();
+    axes_.setSplits(node, cell, subtree);
+    return kernels_.build(subtree);
   }
 
   Halves

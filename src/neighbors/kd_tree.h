@@ -59,7 +59,7 @@ struct SampleRecord {
 
 using SampleRecords = LargeArray<SampleRecord>;
 
-/** \brief x after z. */
+/** \brief The next axis: y after x, z after y, x after z. */
 constexpr int
 nextAxis(int axis)
 {

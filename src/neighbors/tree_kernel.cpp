@@ -90,15 +90,17 @@ shuffled(const Floats& first, const Floats& second, const Ints& from)
 
 /** Samples of a subtree, one per lane. The samples of a node fill a group of lanes from
  * its first one on; what is left of a group has infinite coordinates. */
-class Subtree {
+class SubtreeBuilder {
 public:
-  Subtree(float* records, int count)
-      : size_(fill(count))
-      , records_(records)
+  explicit SubtreeBuilder(const Subtree& subtree)
+      : size_(fill(subtree.count))
+      , subtree_(subtree)
   {
+    const int count = subtree.count;
     Floats loaded[4];
     for (int r = 0; r < 4; ++r)
-      loaded[r] = loadRecords(records + r * lanes, count - r * records_per_register);
+      loaded[r] =
+          loadRecords(subtree.records + r * lanes, count - r * records_per_register);
     const Ints lane = laneNumbers();
     constexpr int half = lanes / 2;
     const Ints both = lane < half ? lane : lane + half;
@@ -111,47 +113,25 @@ public:
     for (int axis = 0; axis < 3; ++axis)
       position_[axis] = lane < count ? column(axis) : fill(infinity);
     index_ = bitsOf(column(3));
+    if (subtree.low != nullptr)
+      for (int axis = 0; axis < 3; ++axis) {
+        low_[axis] = fill(subtree.low[axis]);
+        high_[axis] = fill(subtree.high[axis]);
+      }
   }
 
-  /** Sides of the root's cell. */
-  void
-  setCell(const float* low, const float* high)
-  {
-    for (int axis = 0; axis < 3; ++axis) {
-      low_[axis] = fill(low[axis]);
-      high_[axis] = fill(high[axis]);
-    }
-  }
-
-  /** Part the nodes of a level.
+  /** Part the nodes of a level and of those below.
    * \tparam group lanes per node
    * \tparam by_cell whether splits run across the longest sides of cells
-   * \param axis of the splits otherwise
-   * \param number of the level's first node
-   * \param planes by node number, as axes */
+   * \param number of the level's first node */
   template <int group, bool by_cell>
   void
-  part(int axis, std::uint64_t number, SplitPlane* planes, std::int8_t* axes)
+  partFrom(std::uint64_t number, const std::int8_t* cycle)
   {
-    const Ints axis_of = by_cell ? findLongestSides() : fill(axis);
-    const Ints lane = laneNumbers(), within = lane & (group - 1);
-    const Ints lower_half = (size_ + 1) >> 1;
-    const Ints rank = rankWithin<group>(axis_of);
-    // Lower halves to the first lanes of a group, upper ones to the middle.
-    const Ints to =
-        lane - within + (rank < lower_half ? rank : rank - lower_half + group / 2);
-    Ints from = lane;
-    for (int step = 0; step < group; ++step) {
-      const Ints other = lane - within + ((lane + step) & (group - 1));
-      from = shuffled(to, other) == lane ? other : from;
+    if constexpr (group > 1) {
+      part<group, by_cell>(by_cell ? 0 : *cycle, number);
+      partFrom<group / 2, by_cell>(2 * number, by_cell ? nullptr : cycle + 1);
     }
-    const Ints sizes = size_;
-    size_ = within >= group / 2 ? size_ - lower_half : lower_half;
-    const Ints is_filled = (lane & (group / 2 - 1)) < size_;
-    for (Floats& coordinate : position_)
-      coordinate = is_filled ? shuffled(coordinate, from) : fill(infinity);
-    index_ = shuffled(index_, from);
-    writePlanes<group, by_cell>(axis_of, sizes, number, planes, axes);
   }
 
   /** True once samples of one node were found at one position. */
@@ -171,7 +151,7 @@ public:
       store(coordinate[axis], position_[axis]);
     store(index, index_);
     store(size, size_);
-    float* record = records_;
+    float* record = subtree_.records;
     for (int lane = 0; lane < lanes; ++lane)
       if (size[lane] > 0) {
         for (int axis = 0; axis < 3; ++axis)
@@ -182,6 +162,33 @@ public:
   }
 
 private:
+  /** Part the nodes of a level.
+   * \param axis of the splits unless they run by cells */
+  template <int group, bool by_cell>
+  void
+  part(int axis, std::uint64_t number)
+  {
+    const Ints axis_of = by_cell ? findLongestSides() : fill(axis);
+    const Ints lane = laneNumbers(), within = lane & (group - 1);
+    const Ints lower_half = (size_ + 1) >> 1;
+    const Ints rank = rankWithin<group>(axis_of);
+    // Lower halves to the first lanes of a group, upper ones to the middle.
+    const Ints to =
+        lane - within + (rank < lower_half ? rank : rank - lower_half + group / 2);
+    Ints from = lane;
+    for (int step = 0; step < group; ++step) {
+      const Ints other = lane - within + ((lane + step) & (group - 1));
+      from = shuffled(to, other) == lane ? other : from;
+    }
+    const Ints sizes = size_;
+    size_ = within >= group / 2 ? size_ - lower_half : lower_half;
+    const Ints is_filled = (lane & (group / 2 - 1)) < size_;
+    for (Floats& coordinate : position_)
+      coordinate = is_filled ? shuffled(coordinate, from) : fill(infinity);
+    index_ = shuffled(index_, from);
+    writePlanes<group, by_cell>(axis_of, sizes, number);
+  }
+
   static Floats
   choose(const Ints& axis, const Floats (&numbers)[3])
   {
@@ -231,11 +238,7 @@ private:
 
   template <int group, bool by_cell>
   void
-  writePlanes(const Ints& axis,
-              const Ints& sizes,
-              std::uint64_t number,
-              SplitPlane* planes,
-              std::int8_t* axes)
+  writePlanes(const Ints& axis, const Ints& sizes, std::uint64_t number)
   {
     float coordinate[lanes], plane_of[lanes];
     std::int32_t index[lanes], size[lanes], axis_of[lanes];
@@ -249,9 +252,9 @@ private:
         const int below = begin + (size[begin] + 1) / 2 - 1;
         plane = midway(coordinate[below], coordinate[begin + group / 2]);
         const std::uint64_t node = number + static_cast<std::uint64_t>(begin / group);
-        planes[node] = {plane, static_cast<std::uint32_t>(index[below])};
+        subtree_.planes[node] = {plane, static_cast<std::uint32_t>(index[below])};
         if (by_cell)
-          axes[node] = static_cast<std::int8_t>(axis_of[begin]);
+          subtree_.axes[node] = static_cast<std::int8_t>(axis_of[begin]);
       }
       for (int lane = begin; by_cell && lane < begin + group; ++lane)
         plane_of[lane] = plane;
@@ -273,43 +276,19 @@ private:
   Floats position_[3], low_[3], high_[3];
   Ints index_, size_; // samples of the node that a lane belongs to
   Ints is_equal_{};   // to another one of its node
-  float* records_;
+  const Subtree& subtree_;
 };
 
-/** The levels from a group of lanes down to pairs. */
-template <int group, bool by_cell>
-void
-partFrom(Subtree& subtree,
-         std::uint64_t number,
-         const std::int8_t* cycle,
-         SplitPlane* planes,
-         std::int8_t* axes)
-{
-  if constexpr (group > 1) {
-    subtree.part<group, by_cell>(*cycle, number, planes, axes);
-    partFrom<group / 2, by_cell>(subtree, 2 * number, cycle + 1, planes, axes);
-  }
-}
-
 bool
-build(float* records,
-      int count,
-      std::uint64_t number,
-      const std::int8_t* cycle,
-      const float* low,
-      const float* high,
-      SplitPlane* planes,
-      std::int8_t* axes)
+build(const Subtree& subtree)
 {
-  Subtree subtree(records, count);
-  if (low == nullptr)
-    partFrom<lanes, false>(subtree, number, cycle, planes, axes);
-  else {
-    subtree.setCell(low, high);
-    partFrom<lanes, true>(subtree, number, cycle, planes, axes);
-  }
-  subtree.write();
-  return !subtree.hasEquals();
+  SubtreeBuilder builder(subtree);
+  if (subtree.low != nullptr)
+    builder.partFrom<lanes, true>(subtree.number, nullptr);
+  else
+    builder.partFrom<lanes, false>(subtree.number, subtree.cycle);
+  builder.write();
+  return !builder.hasEquals();
 }
 
 constexpr std::uint32_t most_in_registers = lanes;

@@ -23,9 +23,21 @@ midway(float below, float above)
                             (static_cast<double>(below) + static_cast<double>(above)));
 }
 
+/** \brief A part of a tree whose samples fit into registers. */
+struct Subtree {
+  float* records; ///< x, y, z and an index, one after another; come into leaf order
+  int count;
+  std::uint64_t number;     ///< of its root
+  const std::int8_t* cycle; ///< axes of the splits, from its root's depth on
+  const float *low, *high;  ///< corners of its root's cell, across whose longest sides
+                            ///< splits run instead; null for none
+  SplitPlane* planes;       ///< by node number, get the indices of records
+  std::int8_t* axes;        ///< by node number, set if there is a cell
+};
+
 /** \brief One instruction set's versions. */
 struct TreeKernels {
-  /** Numbers that valueAtRank chooses from at most, and the room that they have. */
+  /** Most numbers that valueAtRank takes. An array has room for all of them. */
   static constexpr int most_values = 32;
 
   /** \brief The value that would stand at that place if so many numbers were sorted. */
@@ -35,22 +47,8 @@ struct TreeKernels {
   std::uint32_t most_in_registers;
 
   /** \brief Build a subtree of at most that many samples.
-   * \param records x, y, z and an index, one after another; brought into leaf order
-   * \param number of the subtree's root
-   * \param cycle axis of the splits, from the root's depth on
-   * \param low,high corners of the root's cell: splits run across the longest sides of
-   * cells instead; null for none
-   * \param planes by node number, gets those of the subtree with indices of records
-   * \param axes by node number, gets those of the splits if there is a cell
    * \return false if positions are equal */
-  bool (*build)(float* records,
-                int count,
-                std::uint64_t number,
-                const std::int8_t* cycle,
-                const float* low,
-                const float* high,
-                SplitPlane* planes,
-                std::int8_t* axes);
+  bool (*build)(const Subtree& subtree);
 };
 
 namespace baseline {

@@ -151,14 +151,14 @@ TEST(TreeKernel, SubtreesInRegistersAreThoseBySorting)
           // Levels of a subtree that has fewer samples stay as they are.
           std::vector<SplitPlane> planes(32, SplitPlane{7.0f, 7});
           std::vector<std::int8_t> axes(32, -1);
-          EXPECT_TRUE(kernel->build(records.front().position.x,
-                                    static_cast<int>(count),
-                                    1,
-                                    plain.cycle.data(),
-                                    by_cell ? cell.low.x : nullptr,
-                                    by_cell ? cell.high.x : nullptr,
-                                    planes.data(),
-                                    axes.data()));
+          EXPECT_TRUE(kernel->build({records.front().position.x,
+                                     static_cast<int>(count),
+                                     1,
+                                     plain.cycle.data(),
+                                     by_cell ? cell.low.x : nullptr,
+                                     by_cell ? cell.high.x : nullptr,
+                                     planes.data(),
+                                     axes.data()}));
           for (std::uint32_t i = 0; i < count; ++i)
             ASSERT_EQ(records[i].input_index, expected[i].input_index)
                 << count << " samples, " << values << " values";
@@ -184,14 +184,14 @@ TEST(TreeKernel, SubtreesInRegistersNoticeEqualPositions)
         records[copy].position = records[copy / 2].position;
         const AxisCycle cycle = KdTree::cycleOver({true, true, true});
         std::vector<SplitPlane> planes(32);
-        EXPECT_FALSE(kernel->build(records.front().position.x,
-                                   static_cast<int>(count),
-                                   1,
-                                   cycle.data(),
-                                   nullptr,
-                                   nullptr,
-                                   planes.data(),
-                                   nullptr));
+        EXPECT_FALSE(kernel->build({records.front().position.x,
+                                    static_cast<int>(count),
+                                    1,
+                                    cycle.data(),
+                                    nullptr,
+                                    nullptr,
+                                    planes.data(),
+                                    nullptr}));
         std::vector<bool> is_there(count);
         for (const SampleRecord& record : records)
           is_there[record.input_index] = true;
