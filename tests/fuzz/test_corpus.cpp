@@ -137,18 +137,32 @@ TEST_P(Corpus, BreaksNoPromise)
     runOn(GetParam(), uvol_test::readFile(file), file.filename());
 }
 
-TEST_P(Corpus, MutatedBreaksNoPromise)
+/** \param end of the seeds, from the first on, unless the environment tells another */
+void
+runOnMutants(const Target& target, std::size_t first, std::size_t end)
 {
   constexpr std::size_t most_bytes = 20000;
   std::vector<std::string> files;
-  for (const fs::path& file : listCorpus(GetParam()))
+  for (const fs::path& file : listCorpus(target))
     if (fs::file_size(file) <= most_bytes)
       files.push_back(uvol_test::readFile(file));
-  const std::size_t end = readCount("UVOL_MUTANTS", 200); // seeds from the first on
-  for (std::size_t i = readCount("UVOL_FIRST_MUTANT", 0); i < end; ++i)
-    runOn(GetParam(),
+  end = readCount("UVOL_MUTANTS", end);
+  for (std::size_t i = readCount("UVOL_FIRST_MUTANT", first); i < end; ++i)
+    runOn(target,
           Mutator(files, i).mutate(files[i % files.size()]),
           "seed " + std::to_string(i));
+}
+
+constexpr std::size_t default_mutants = 50;
+
+TEST_P(Corpus, MutatedBreaksNoPromise)
+{
+  runOnMutants(GetParam(), 0, default_mutants);
+}
+
+TEST_P(Corpus, MutatedBreaksNoPromise_long)
+{
+  runOnMutants(GetParam(), default_mutants, 1000);
 }
 
 /** Readers and stages share nothing that threads of a user could spoil: tsan looks on.
