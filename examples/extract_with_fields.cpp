@@ -25,8 +25,8 @@ try {
   pcl_uvol::saveDataset(argv[2], result.surface);
 
   // A result is good where there is no warning: show all of them.
-  for (const std::string& warning : result.report.warnings)
-    std::cout << "Warning: " << warning << '\n';
+  for (const pcl_uvol::Message& warning : result.report.warnings)
+    std::cout << "Warning (" << warning.code << "): " << warning << '\n';
   std::cout << result.surface.cloud.width << " isopoints with";
   for (const auto& field : result.surface.cloud.fields)
     std::cout << ' ' << field.name;

@@ -41,7 +41,8 @@ loadSurface(const std::string& path, Report& report)
                                      surface.triangles);
   }
   catch (const pcl_uvol::InvalidArgument& error) {
-    throw pcl_uvol::IOError("Cannot use '" + path + "': " + error.message());
+    throw pcl_uvol::IOError("Cannot use '" + path + "': " +
+                            error.asMessage().text(pcl_uvol::ParameterNames::Options));
   }
   return surface;
 }
@@ -92,19 +93,15 @@ void
 warnOfPoints(const Surface& surface, const std::string& path, Report& report)
 {
   if (surface.triangles.empty())
-    report.warnings.push_back("'" + path +
-                              "' has no triangles: distances to it are those to its "
-                              "points, and no smaller than these lie apart.");
+    report.warn("no_triangles", {{"surface", "'" + path + "'"}});
 }
 
 void
 warnOfManyFields(const SurfaceDistances& distances, Report& report)
 {
   if (distances.fields.size() > most_fields_told)
-    report.warnings.push_back("The surfaces have " +
-                              std::to_string(distances.fields.size()) +
-                              " fields in common: " + std::to_string(most_fields_told) +
-                              " of them are told.");
+    report.warn("many_common_fields",
+                {{"fields", distances.fields.size()}, {"told", most_fields_told}});
 }
 
 int

@@ -233,7 +233,7 @@ addPositions(const std::string& path,
   report.warnings.insert(
       report.warnings.end(), positions.warnings.begin(), positions.warnings.end());
   if (positions.non_finite == dataset.cloud.width)
-    report.warnings.push_back(path + " has no point with finite x, y, z.");
+    report.warn("no_finite_points", {{"path", path}});
   else {
     facts.emplace_back(
         "lower corner", joined(positions.lower, " "), toNumbers(positions.lower));
@@ -300,7 +300,7 @@ describeCloud(const Options& options,
   report.count("points", dataset.cloud.width);
   std::string chosen = chosenField(arguments, dataset);
   if (dataset.cloud.width == 0) {
-    report.warnings.push_back(input + " has no points.");
+    report.warn("no_points", {{"path", input}});
     return facts;
   }
   pcl_uvol::detail::Stretch stretch;
@@ -312,8 +312,7 @@ describeCloud(const Options& options,
     addPositions(input, dataset, stretch, threads, facts, report);
   }
   else
-    report.warnings.push_back(input +
-                              " names no columns of coordinates: -xyz chooses them.");
+    report.warn("no_coordinate_columns", {{"path", input}});
   addRanges(dataset, facts);
   addNames(dataset, facts);
   uvol_tools::addField(dataset, chosen, options, report);

@@ -2,7 +2,6 @@
 // The main job: a file of scattered samples in, an oriented isosurface out.
 #include "common/memory.h"
 #include "common/numbers.h"
-#include "common/sample_checks.h"
 #include "shared/options.h"
 #include "shared/point_files.h"
 #include "shared/progress_bar.h"
@@ -58,10 +57,7 @@ saveMesh(const std::string& path,
   const StepTimer timer(report, "write");
   const auto& origin = result.surface.origin;
   if (isStl(path) && origin != std::array<double, 3>{})
-    report.warnings.push_back(
-        "STL holds single precision, which these coordinates exceed: those in the file "
-        "are relative to " +
-        joined(std::vector<double>(origin.begin(), origin.end())) + ".");
+    report.warn("stl_without_origin", {{"origin", joined(origin)}});
   pcl_uvol::saveMesh(path, result.surface, result.triangles, options);
   uvol_tools::warnOfLosses(path, result.surface, report);
 }
@@ -99,7 +95,6 @@ struct Job {
         memory ? runInMemory(options, arguments, *memory, report, figures)
                : runFromDisk(options, arguments, report);
     report.merge(result.report);
-    pcl_uvol::warnOfConflicts(report.getCount("samples"), 1, report);
     arguments.picture.addColor(options, result.surface, report);
 
     const auto& isovalues = arguments.parameters.isosurface.isovalues;

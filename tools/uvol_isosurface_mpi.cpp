@@ -232,7 +232,6 @@ run(int argc, char** argv, pcl_uvol::Communicator& communicator)
       mergeReports(report,
                    communicator,
                    {"bytes_redistributed", "bytes_exchanged", "bytes_of_fields"});
-  pcl_uvol::warnOfConflicts(together.getCount("samples"), 1, together);
   uvol_tools::Facts facts{{"input", joined(arguments.inputs)},
                           {"output", arguments.output},
                           {"processes", static_cast<double>(communicator.size())}};

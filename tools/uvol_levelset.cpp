@@ -254,9 +254,8 @@ forecastMemory(const LevelSetParameters& parameters,
 void
 warnOfGuesses(const pcl_uvol::SamplingSummary& sampling, Report& report)
 {
-  const std::string warning = pcl_uvol::tellSmoothedGuesses(report, sampling);
-  if (!warning.empty())
-    report.warnings.push_back(warning);
+  if (const auto warning = pcl_uvol::tellSmoothedGuesses(report, sampling))
+    report.warnings.push_back(*warning);
 }
 
 /** out.ply becomes out_00010.ply. */
@@ -380,7 +379,6 @@ run(int argc, char** argv)
   const pcl_uvol::SamplingSummary& sampling = *evolution.getSampling();
   if (!boxed.isPeriodic()) // most of what is examined there may be images
     warnOfGuesses(sampling, report);
-  pcl_uvol::warnOfConflicts(report.getCount("samples"), 1, report);
   const pcl_uvol::LevelSetSummary& summary = evolution.getSummary();
 
   pcl_uvol::SaveOptions save;

@@ -246,13 +246,9 @@ extractSurface(const Options& options,
   pipeline.setProgressCallback(report.progress);
   pcl_uvol::IsosurfaceResult result = pipeline.run();
   report.merge(result.report);
-  pcl_uvol::warnOfConflicts(report.getCount("samples"), 1, report);
   if (2 * (report.getCount("bridged") + report.getCount("rim")) >
       report.getCount("isopoints"))
-    report.warnings.push_back(
-        "Most of the surface lies between lines of samples or beside gaps: its area, "
-        "its volume and what is inside are not constrained by the samples. Try: -block "
-        "dx,dy,dz estimates volumes and means beyond a value without a surface.");
+    report.warn("unconstrained_measures");
   if (result.triangles.empty())
     throw pcl_uvol::InvalidArgument(
         "There is no isosurface to measure: " + result.field +

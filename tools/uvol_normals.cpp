@@ -124,9 +124,7 @@ run(int argc, char** argv)
           .cast<float>();
   if (pcl_uvol::findField(dataset.cloud.fields, "normal_x") == nullptr &&
       !options.given("viewpoint"))
-    report.warnings.push_back(
-        "The file has no normals to orient by: the new ones look to 0,0,0; -viewpoint "
-        "chooses another place.");
+    report.warn("oriented_to_zero");
 
   pcl_uvol::Dataset result = pcl_uvol::withoutCloud(dataset);
   result.cloud = estimateNormals(dataset.cloud, parameters, options.threads(), report);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The field between scattered samples: at points, along lines, in planes and in grids,
 // and how sure it is.
-#include "common/sample_checks.h"
 #include "interpolation/answer_summary.h"
 #include "interpolation/memory_need.h"
 #include "io/cell_loader.h"
@@ -243,10 +242,9 @@ loadCells(const Arguments& arguments,
     return cells;
   }
   catch (const pcl_uvol::IOError& error) {
-    report.warnings.push_back(
-        "The cells of the input are not used: " + error.message() +
-        " The samples decide where the data are, as with "
-        "-no-cell-mask.");
+    report.warn(
+        "cells_not_used",
+        {{"reason", error.asMessage().text(pcl_uvol::ParameterNames::Options)}});
     return nullptr;
   }
 }
@@ -343,9 +341,6 @@ run(int argc, char** argv, uvol_tools::SeriesStep* step)
     FieldInterpolator interpolator(
         view, indices, parameters, options.threads(), report);
     interpolator.setCells(cells);
-    pcl_uvol::warnOfConflicts(samples.cloud.width - report.getCount("duplicates"),
-                              parameters.fields.size(),
-                              report);
     const bool is_stretched = (parameters.scale != 1.0f).any();
     for (const Fact& fact : arguments.variogram.write(interpolator, is_stretched))
       facts.push_back(fact);

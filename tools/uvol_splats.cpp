@@ -132,9 +132,8 @@ run(int argc, char** argv)
     pcl_uvol::warnOfLogarithms(splats, field, mapping, report);
     result.cloud = pcl_uvol::makeGaussians(splats, field, mapping);
     if (result.origin != std::array<double, 3>{})
-      report.warnings.push_back(
-          "Gaussians have coordinates in float: they start at an origin, " +
-          describePlace(result.origin) + ", which is not in the file.");
+      report.warn("gaussians_without_origin",
+                  {{"origin", describePlace(result.origin)}});
     result.origin = {};
     result.double_coordinates = false;
   }

@@ -75,7 +75,7 @@ class Distances:
     at_vertices: np.ndarray
 
 class DivergedError(ArithmeticError):
-    ...
+    code: str | None
 
 class Extractor:
     samples: Samples
@@ -88,7 +88,7 @@ class FieldDifference(NamedTuple):
     largest: float
 
 class FieldError(KeyError):
-    ...
+    code: str | None
 
 class FieldFigures(NamedTuple):
     mean: float
@@ -185,7 +185,9 @@ class Projection:
     def render(self, view: str = ..., size: int | Sequence[int] = ...) -> Picture: ...
 
 class ResultWarning(UserWarning):
-    ...
+    code: str
+    values: dict[str, float | str]
+    def __init__(self, text: str = ..., code: str = ..., values: dict[str, float | str] | None = ...) -> None: ...
 
 class Samples(_Drawable, _Points):
     report: dict[str, Any]

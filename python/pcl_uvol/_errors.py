@@ -5,6 +5,11 @@
 class FieldError(KeyError):
     """There is no field of that name; the message lists those that there are.
 
+    Attributes
+    ----------
+    code : str or None
+        What went wrong, as one word; None where it is told in words only.
+
     Examples
     --------
     >>> try:
@@ -14,6 +19,8 @@ class FieldError(KeyError):
     There is no field 'desnity' (did you mean 'density'?); the fields are density.
     """
 
+    code = None
+
     def __str__(self):
         return self.args[0] if self.args else ""
 
@@ -21,16 +28,30 @@ class FieldError(KeyError):
 class DivergedError(ArithmeticError):
     """An iteration grew beyond bounds: nothing came of it.
 
+    Attributes
+    ----------
+    code : str or None
+        As that of `FieldError`.
+
     Examples
     --------
     >>> issubclass(uvol.DivergedError, ArithmeticError)
     True
     """
 
+    code = None
+
 
 class ResultWarning(UserWarning):
     """What should be known of a result although the call succeeded; `report["warnings"]`
-    of the result lists it as well.
+    of the result lists it as well, as {"code": ..., "text": ..., "values": ...}.
+
+    Attributes
+    ----------
+    code : str
+        What is told, as one word that stays when the text changes.
+    values : dict
+        The numbers and names in the text.
 
     Examples
     --------
@@ -40,4 +61,12 @@ class ResultWarning(UserWarning):
     ...     surface = uvol.isosurface(np.eye(3), {"r": [1.0, 2.0, 3.0]}, iso=7.0)
     >>> told[0].category.__name__, len(surface), len(surface.report["warnings"]) > 0
     ('ResultWarning', 0, True)
+    >>> warning = told[0].message
+    >>> surface.report["warnings"][0] == {"code": warning.code, "text": str(warning), "values": warning.values}
+    True
     """
+
+    def __init__(self, text="", code="text", values=None):
+        super().__init__(text)
+        self.code = code
+        self.values = {} if values is None else values

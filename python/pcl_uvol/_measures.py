@@ -322,7 +322,6 @@ def compare(a, b, *, threads=0, progress=None):
     with listening(progress) as listener:
         forth, back, surface = _core.compare(first._dataset, first_triangles, second._dataset, second_triangles,
                                              _parameters.count(threads, "threads"), listener)
-    _report.tell([f"{name} has no triangles: distances to it are those to its points, and no smaller than these lie "
-                  "apart." for name, triangles in (("a", first_triangles), ("b", second_triangles))
-                  if len(triangles) == 0])
+    _report.tell([_report.message("no_triangles", surface=name)
+                  for name, triangles in (("a", first_triangles), ("b", second_triangles)) if len(triangles) == 0])
     return Comparison(Distances(forth), Distances(back), Samples._of(surface))

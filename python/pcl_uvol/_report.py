@@ -5,13 +5,19 @@ import os
 import sys
 import warnings
 
+from . import _core
 from ._errors import ResultWarning
 
 _FOLDER = os.path.dirname(__file__)
 
 
+def message(code, **values):
+    """A message of the library's table, as `report["warnings"]` lists them."""
+    return _core.make_message(code, values)
+
+
 def tell(messages):
-    """Warn, at the line of the user's that called the module."""
+    """Warn of each, at the line of the user's that called the module."""
     if not messages:
         return
     level = 1
@@ -19,5 +25,5 @@ def tell(messages):
     while frame is not None and os.path.dirname(frame.f_code.co_filename) == _FOLDER:
         frame = frame.f_back
         level += 1
-    for message in messages:
-        warnings.warn(message, ResultWarning, stacklevel=level)
+    for told in messages:
+        warnings.warn(ResultWarning(told["text"], told["code"], told["values"]), stacklevel=level)

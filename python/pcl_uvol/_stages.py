@@ -213,10 +213,10 @@ def splats(points, fields=None, *, delta=1e-4, delta_is_length=False, overlap=0.
     found, report, taken = _run(_core.generate_splats, as_samples(points, fields), parameters, threads, progress)
     if gaussians:
         if any(found.origin):
-            message = ("Gaussians have coordinates in float: they start at an origin, "
-                       f"{', '.join(f'{number:.12g}' for number in found.origin)}, which is not in the file.")
-            report["warnings"].append(message)
-            _report.tell([message])
+            place = ", ".join(f"{number:.12g}" for number in found.origin)
+            lost = [_report.message("gaussians_without_origin", origin=place)]
+            report["warnings"] += lost
+            _report.tell(lost)
         found = _core.make_gaussians(found, _parameters.text(color, "color"))
     return Samples._of(found, report, dict(taken, gaussians=gaussians, color=color))
 

@@ -158,7 +158,7 @@ class Surface(Drawable, Points):
         if "error" in self.report:
             lines.append("estimated error: median {median:.3g}, 95 % within {percentile_95:.3g}".format(
                 **self.report["error"]))
-        lines += [f"&#9888; {html.escape(warning)}" for warning in self.report["warnings"]]
+        lines += [f"&#9888; {html.escape(warning['text'])}" for warning in self.report["warnings"]]
         if image:
             lines.append(f'<img src="data:image/png;base64,{image}">')
         return "<br>".join(lines)

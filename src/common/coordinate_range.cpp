@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <sstream>
 
 namespace pcl_uvol {
 namespace {
@@ -119,19 +118,15 @@ CoordinateRange::findOrigin() const
   return origin;
 }
 
-std::string
+std::optional<Message>
 CoordinateRange::describeBeyond() const
 {
-  return beyond_ == 0
-             ? std::string()
-             : std::to_string(beyond_) +
-                   (beyond_ == 1 ? " point has" : " points have") +
-                   " a coordinate of 3.4e38 or more, which float does not hold. " +
-                   (beyond_ == 1 ? "It counts as a point" : "They count as points") +
-                   " without a position.";
+  if (beyond_ == 0)
+    return std::nullopt;
+  return Message("points_beyond_float", {{"points", beyond_}});
 }
 
-std::string
+std::optional<Message>
 CoordinateRange::describeRounding(const Point& origin) const
 {
   const auto rounding = [&](double coordinate, std::size_t axis) {
@@ -151,24 +146,17 @@ CoordinateRange::describeRounding(const Point& origin) const
     largest = std::max(largest, errors.back());
   }
   if (points.size() < 2 || largest == 0.0)
-    return "";
+    return std::nullopt;
   const double spacing = estimateSpacing(points, count_);
   if (!(largest > unnoticed_rounding * spacing))
-    return "";
+    return std::nullopt;
   const auto usual =
       errors.end() - 1 - static_cast<std::ptrdiff_t>(errors.size() / far_part);
   std::nth_element(errors.begin(), usual, errors.end());
   const bool is_usual = *usual > unnoticed_rounding * spacing;
-  std::ostringstream text;
-  text.precision(2);
-  text << (is_usual ? "Coordinates"
-                    : "Coordinates of single points far from the others")
-       << " are rounded to float by up to " << largest << ", " << largest / spacing
-       << " times the distance between neighbours (about " << spacing << ")"
-       << (is_usual ? ": neighbours may fall together. Parts of the cloud that lie far "
-                      "apart keep their digits in files of their own."
-                    : ".");
-  return text.str();
+  return Message(
+      is_usual ? "rounded_coordinates" : "rounded_far_points",
+      {{"rounding", largest}, {"spacings", largest / spacing}, {"spacing", spacing}});
 }
 
 } // namespace pcl_uvol

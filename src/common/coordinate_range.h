@@ -5,12 +5,13 @@
 #include "common/number_range.h"
 #include "common/sketch.h"
 #include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/message.h>
 
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <string>
+#include <optional>
 #include <vector>
 
 namespace pcl_uvol {
@@ -51,14 +52,14 @@ public:
   Point
   findOrigin() const;
 
-  /** \brief A sentence about points with coordinates beyond float; else empty. */
-  std::string
+  /** \brief A message about points with coordinates beyond float; else none. */
+  std::optional<Message>
   describeBeyond() const;
 
-  /** \brief A sentence where float, relative to that origin, rounds coordinates by more
+  /** \brief A message where float, relative to that origin, rounds coordinates by more
    * than a thousandth of the distance between neighbours, which is estimated from some
-   * hundred points; else empty. */
-  std::string
+   * hundred points; else none. */
+  std::optional<Message>
   describeRounding(const Point& origin) const;
 
 private:

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/merged_positions.h"
 
-#include "common/numbers.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <set>
-#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -169,20 +166,13 @@ findMergedPositions(std::size_t count,
   return merged;
 }
 
-std::string
+std::optional<Message>
 describe(const MergedPositions& merged)
 {
   if (merged.count == 0)
-    return "";
-  std::ostringstream text;
-  text.precision(2);
-  text << describeCount(merged.count, "position falls", "positions fall")
-       << " together with others once coordinates are rounded to float, though up to "
-       << merged.distance
-       << " apart: such points count as duplicates. Parts of the cloud in files of "
-          "their "
-          "own keep more digits.";
-  return text.str();
+    return std::nullopt;
+  return Message("merged_positions",
+                 {{"positions", merged.count}, {"distance", merged.distance}});
 }
 
 } // namespace pcl_uvol

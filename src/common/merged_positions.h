@@ -2,11 +2,13 @@
 // Positions in double that fall together once they are rounded to float.
 #pragma once
 
+#include <pcl_uvol/common/message.h>
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <string>
+#include <optional>
 
 namespace pcl_uvol {
 
@@ -26,8 +28,8 @@ findMergedPositions(
     const std::function<std::array<double, 3>(std::size_t)>& position_at,
     const std::array<double, 3>& origin);
 
-/** \brief A sentence about them; empty if there are none. */
-std::string
+/** \brief A message about them; none if there are none. */
+std::optional<Message>
 describe(const MergedPositions& merged);
 
 } // namespace pcl_uvol

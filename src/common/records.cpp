@@ -61,7 +61,7 @@ copyRuns(const std::vector<ByteRun>& runs, const std::uint8_t* from, std::uint8_
 
 /** Names that differ, empty for padding. */
 Fields
-namedFields(Fields fields, std::vector<std::string>& notes)
+namedFields(Fields fields, std::vector<Message>& notes)
 {
   std::vector<std::string> names;
   for (const auto& field : fields)
@@ -72,13 +72,13 @@ namedFields(Fields fields, std::vector<std::string>& notes)
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (names[i] != fields[i].name && !names[i].empty())
       if (++renamed <= most_notes)
-        notes.push_back("A further field " + quoteText(fields[i].name) + " is called " +
-                        quoteText(names[i]) + ".");
+        notes.push_back({"repeated_field",
+                         {{"field", shortenText(fields[i].name)},
+                          {"name", shortenText(names[i])}}});
     fields[i].name = names[i];
   }
   if (renamed > most_notes)
-    notes.push_back(std::to_string(renamed - most_notes) +
-                    " more fields are told apart in the same way.");
+    notes.push_back({"more_repeated_fields", {{"fields", renamed - most_notes}}});
   return fields;
 }
 
@@ -199,7 +199,7 @@ RecordLayout::isIdentity() const
 void
 RecordLayout::setOrigin(const CoordinateRange& range)
 {
-  std::vector<std::string> of_degrees; // what the map rounds counts
+  std::vector<Message> of_degrees; // what the map rounds counts
   header_.origin = findOrigin(range, is_global_ ? of_degrees : header_.notes);
   needs_origin_ = false;
 }
@@ -244,11 +244,11 @@ RecordLayout::convert(const std::uint8_t* records,
   }
 }
 
-std::string
+std::optional<Message>
 RecordLayout::describeMerging(const std::uint8_t* records, std::size_t count) const
 {
   if (floats_ || is_global_)
-    return "";
+    return std::nullopt;
   const auto position_at = [&](std::size_t i) -> std::array<double, 3> {
     const std::uint8_t* const record = records + i * record_step_;
     return {placeOrNaN(axes_[0].read(record)),
@@ -259,13 +259,12 @@ RecordLayout::describeMerging(const std::uint8_t* records, std::size_t count) co
 }
 
 std::array<double, 3>
-findOrigin(const CoordinateRange& range, std::vector<std::string>& notes)
+findOrigin(const CoordinateRange& range, std::vector<Message>& notes)
 {
   const std::array<double, 3> origin = range.findOrigin();
-  for (const std::string& note :
-       {range.describeBeyond(), range.describeRounding(origin)})
-    if (!note.empty())
-      notes.push_back(note);
+  for (const auto& note : {range.describeBeyond(), range.describeRounding(origin)})
+    if (note)
+      notes.push_back(*note);
   return origin;
 }
 
@@ -297,9 +296,8 @@ makeDataset(pcl::PCLPointCloud2&& records, RecordInfo info)
     layout.removeNonPlaces(count, dataset.cloud.data.data());
     return dataset;
   }
-  const std::string merging = layout.describeMerging(records.data.data(), count);
-  if (!merging.empty())
-    dataset.notes.push_back(merging);
+  if (const auto merging = layout.describeMerging(records.data.data(), count))
+    dataset.notes.push_back(*merging);
   resizePoints(dataset.cloud, count);
   layout.convert(records.data.data(), count, dataset.cloud.data.data());
   return dataset;

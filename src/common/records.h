@@ -97,7 +97,7 @@ repack(const pcl::PCLPointCloud2& cloud, bool with_xyz);
 struct PCL_UVOL_EXPORTS RecordInfo {
   Fields fields;
   std::uint64_t count = 0;
-  std::vector<std::string> notes;
+  std::vector<Message> notes;
   std::optional<bool> double_coordinates; ///< unset: the types of x, y, z tell
   bool has_coordinates = true;
   bool is_global = false; ///< x and y are degrees, and points are put on a map later
@@ -142,9 +142,9 @@ public:
   void
   addTo(CoordinateRange& range, const std::uint8_t* records, std::size_t count) const;
 
-  /** \brief A sentence about positions that rounding to float makes equal, see
-   * MergedPositions; else empty. */
-  std::string
+  /** \brief A message about positions that rounding to float makes equal, see
+   * MergedPositions; else none. */
+  std::optional<Message>
   describeMerging(const std::uint8_t* records, std::size_t count) const;
 
   /** \param[out] points gets as many points, of the header's point_step */
@@ -167,9 +167,9 @@ private:
 };
 
 /** \brief The origin of coordinates.
- * \param notes get a sentence where float rounds them so much that it matters */
+ * \param notes get a message where float rounds them so much that it matters */
 PCL_UVOL_EXPORTS std::array<double, 3>
-findOrigin(const CoordinateRange& range, std::vector<std::string>& notes);
+findOrigin(const CoordinateRange& range, std::vector<Message>& notes);
 
 /** \brief Write a coordinate to the front of a point. */
 inline void

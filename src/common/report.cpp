@@ -53,6 +53,12 @@ Report::time(const std::string& step, double milliseconds_spent)
 }
 
 void
+Report::warn(std::string code, std::vector<MessageValue> values)
+{
+  warnings.emplace_back(std::move(code), std::move(values));
+}
+
+void
 Report::merge(const Report& other)
 {
   for (const auto& [name, value] : other.counts)

@@ -19,10 +19,13 @@ refuseNames(const Dataset& samples, const std::string& field);
 
 /** \brief Warn where more than a few of the places of samples have several values, as
  * those of repeated experiments do.
+ * \param conflicting values that are the median of different ones, of all fields
  * \param samples places
- * \param fields that were counted together
- * \param report has the count "conflicting_duplicates" */
+ * \param fields number of fields */
 PCL_UVOL_EXPORTS void
-warnOfConflicts(std::uint64_t samples, std::size_t fields, Report& report);
+warnOfConflicts(std::uint64_t conflicting,
+                std::uint64_t samples,
+                std::size_t fields,
+                Report& report);
 
 } // namespace pcl_uvol

@@ -4,6 +4,7 @@
 #include "distributed/byte_stream.h"
 
 #include <algorithm>
+#include <variant>
 
 namespace pcl_uvol {
 
@@ -23,11 +24,43 @@ getText(ByteReader& reader)
   return {text.begin(), text.end()};
 }
 
-Bytes
-toMessage(const Report& report)
+void
+put(ByteWriter& writer, const Message& warning)
 {
-  Bytes message;
-  ByteWriter writer(message);
+  put(writer, warning.code);
+  put(writer, warning.about);
+  writer.put(warning.values.size());
+  for (const auto& [name, value] : warning.values) {
+    const auto* const number = std::get_if<double>(&value);
+    put(writer, name);
+    writer.put(number != nullptr);
+    if (number != nullptr)
+      writer.put(*number);
+    else
+      put(writer, std::get<std::string>(value));
+  }
+}
+
+Message
+getWarning(ByteReader& reader)
+{
+  Message warning(getText(reader), {});
+  warning.about = getText(reader);
+  for (auto count = reader.get<std::size_t>(); count > 0; --count) {
+    const std::string name = getText(reader);
+    if (reader.get<bool>())
+      warning.values.emplace_back(name, reader.get<double>());
+    else
+      warning.values.emplace_back(name, getText(reader));
+  }
+  return warning;
+}
+
+Bytes
+toBytes(const Report& report)
+{
+  Bytes bytes;
+  ByteWriter writer(bytes);
   const auto putAll = [&](const auto& entries) {
     writer.put(entries.size());
     for (const auto& [name, value] : entries) {
@@ -38,16 +71,16 @@ toMessage(const Report& report)
   putAll(report.counts);
   putAll(report.milliseconds);
   writer.put(report.warnings.size());
-  for (const std::string& warning : report.warnings)
+  for (const Message& warning : report.warnings)
     put(writer, warning);
-  return message;
+  return bytes;
 }
 
 Report
-fromMessage(const Bytes& message)
+fromBytes(const Bytes& bytes)
 {
   Report report;
-  ByteReader reader(message);
+  ByteReader reader(bytes);
   for (auto count = reader.get<std::size_t>(); count > 0; --count) {
     const std::string name = getText(reader);
     report.count(name, reader.get<std::uint64_t>());
@@ -57,7 +90,7 @@ fromMessage(const Bytes& message)
     report.time(step, reader.get<double>());
   }
   for (auto count = reader.get<std::size_t>(); count > 0; --count)
-    report.warnings.push_back(getText(reader));
+    report.warnings.push_back(getWarning(reader));
   return report;
 }
 
@@ -86,15 +119,15 @@ mergeReports(const Report& report,
 {
   Report merged;
   std::vector<std::pair<std::string, std::uint64_t>> most;
-  for (const Bytes& message : communicator.allGather(toMessage(report))) {
-    const Report other = fromMessage(message);
+  for (const Bytes& bytes : communicator.allGather(toBytes(report))) {
+    const Report other = fromBytes(bytes);
     for (const auto& [name, value] : other.counts)
       merged.count(name, value);
     for (const std::string& name : largest)
       keepLargest(most, "largest_" + name, other.getCount(name));
     for (const auto& [step, value] : other.milliseconds)
       keepLargest(merged.milliseconds, step, value);
-    for (const std::string& warning : other.warnings)
+    for (const Message& warning : other.warnings)
       if (std::find(merged.warnings.begin(), merged.warnings.end(), warning) ==
           merged.warnings.end())
         merged.warnings.push_back(warning);

@@ -137,17 +137,11 @@ deriveColumns(Derivative derivative,
       column[points.own.count + i] = column[points.image_of[i]];
   undefined += missing;
   if (unknown > 0)
-    report.warnings.push_back(
-        "At " + std::to_string(unknown) + " of " + std::to_string(points.own.count) +
-        " points the neighbours do not determine the derivatives, because the standard "
-        "error is larger than the differences between values. These points have no "
-        "value.");
+    report.warn("unknown_derivatives",
+                {{"unknown", unknown.load()}, {"points", points.own.count}});
   const auto reduced = static_cast<double>(own.getCount("reduced_fits"));
   if (reduced > most_reduced * static_cast<double>(count))
-    report.warnings.push_back(
-        "Around " + std::to_string(own.getCount("reduced_fits")) +
-        " samples others lie on few planes or lines: derivatives across these count "
-        "as 0.");
+    report.warn("reduced_derivatives", {{"samples", reduced}});
   return columns;
 }
 

@@ -178,15 +178,17 @@ findFormula(const Dataset& header,
   return formula;
 }
 
-std::string
-describeUndefined(const std::string& expression,
-                  std::uint64_t undefined,
-                  std::uint64_t points)
+void
+warnOfUndefined(const std::string& expression,
+                std::uint64_t undefined,
+                std::uint64_t points,
+                Report& report)
 {
-  return "The field " + quoteText(expression) + " is undefined at " +
-         std::to_string(undefined) + " of " + std::to_string(points) +
-         " points, as by a division by zero or the logarithm of a negative number: "
-         "they have no value.";
+  if (undefined > 0)
+    report.warn("undefined_field",
+                {{"field", shortenText(expression)},
+                 {"undefined", undefined},
+                 {"points", points}});
 }
 
 std::string
@@ -205,9 +207,7 @@ addDerivedField(Dataset& dataset,
            formula->text,
            computeColumn(
                dataset, *formula, Missing::Everything, options, undefined, report));
-  if (undefined > 0)
-    report.warnings.push_back(
-        describeUndefined(formula->text, undefined, dataset.cloud.width));
+  warnOfUndefined(formula->text, undefined, dataset.cloud.width, report);
   return formula->text;
 }
 

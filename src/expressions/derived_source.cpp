@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "expressions/derived_source.h"
 
+#include "common/printable.h"
 #include "expressions/evaluation.h"
 #include "expressions/operand_names.h"
 
@@ -12,15 +13,14 @@ DerivedSource::DerivedSource(PointSource& source,
     : source_(source)
     , header_(source.getHeader())
     , field_(withoutQuotes(header_.cloud.fields, expression))
-    , formula_(findFormula(
-          header_,
-          field_,
-          {threads, "from points that are read block by block: leave out -max-memory"}))
+    , formula_(findFormula(header_, field_, {threads, {}, {}}))
     , threads_(threads)
 {
   if (!formula_)
     return;
   field_ = formula_->text;
+  if (formula_->hasDerivative())
+    throw InvalidArgument("derivatives_of_blocks", {{"field", shortenText(field_)}});
   addField(header_.cloud);
 }
 
@@ -71,8 +71,7 @@ DerivedSource::readRows(const std::vector<std::uint64_t>& points,
 void
 DerivedSource::tell(Report& report) const
 {
-  if (undefined_ > 0)
-    report.warnings.push_back(describeUndefined(field_, undefined_, size()));
+  warnOfUndefined(field_, undefined_, size(), report);
 }
 
 } // namespace pcl_uvol

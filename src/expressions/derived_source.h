@@ -19,11 +19,12 @@ findFormula(const Dataset& header,
             const std::string& expression,
             const DerivedFieldOptions& options);
 
-/** \brief The warning for numbers that are not finite. */
-std::string
-describeUndefined(const std::string& expression,
-                  std::uint64_t undefined,
-                  std::uint64_t points);
+/** \brief Warn of numbers that are not finite, if there are any. */
+void
+warnOfUndefined(const std::string& expression,
+                std::uint64_t undefined,
+                std::uint64_t points,
+                Report& report);
 
 /** \brief Points of another source with one more field, see addDerivedField. */
 class PCL_UVOL_EXPORTS DerivedSource : public PointSource {

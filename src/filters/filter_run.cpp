@@ -101,7 +101,7 @@ runGuarded(vtkAlgorithm& filter,
     return 1;
   }
   catch (const Exception& exception) {
-    error = exception.message();
+    error = exception.asMessage().text(ParameterNames::Properties);
   }
   catch (const std::bad_alloc&) {
     error = "There is not enough memory.";
@@ -109,8 +109,8 @@ runGuarded(vtkAlgorithm& filter,
   catch (const std::exception& exception) {
     error = exception.what();
   }
-  for (const std::string& warning : report.warnings)
-    vtkWarningWithObjectMacro(&filter, << warning);
+  for (const Message& warning : report.warnings)
+    vtkWarningWithObjectMacro(&filter, << warning.text(ParameterNames::Properties));
   if (error.empty())
     return 1;
   vtkErrorWithObjectMacro(&filter, << error);

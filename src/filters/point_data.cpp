@@ -149,8 +149,9 @@ PointCollector::addNumbers(const std::string& name, vtkDataArray& array)
   else {
     const bool taken = axisOf(name) >= 0 || name == "_";
     if (taken)
-      info_.notes.push_back("The array " + quoteText(name) + " is called " +
-                            quoteText(name + "_2") + ".");
+      info_.notes.push_back(
+          {"renamed_array",
+           {{"array", shortenText(name)}, {"name", shortenText(name + "_2")}}});
     append(taken ? name + "_2" : name,
            plain,
            static_cast<std::size_t>(plain.GetNumberOfComponents()));
@@ -170,10 +171,10 @@ PointCollector::addPointData()
     auto* const numbers = vtkDataArray::SafeDownCast(array);
     if (array->GetNumberOfTuples() != data_.GetNumberOfPoints() ||
         array->GetNumberOfComponents() < 1)
-      info_.notes.push_back("The array " + quoteText(name) + " has " +
-                            std::to_string(array->GetNumberOfTuples()) +
-                            " tuples for " + std::to_string(data_.GetNumberOfPoints()) +
-                            " points and is left out.");
+      info_.notes.push_back({"unfitting_array",
+                             {{"array", shortenText(name)},
+                              {"tuples", array->GetNumberOfTuples()},
+                              {"points", data_.GetNumberOfPoints()}}});
     else if (numbers)
       addNumbers(name, *numbers);
     else
@@ -181,9 +182,7 @@ PointCollector::addPointData()
   }
   if (point_data.GetNumberOfArrays() == 0 &&
       data_.GetCellData()->GetNumberOfArrays() > 0)
-    info_.notes.emplace_back("There are data of cells only, which are left out: the "
-                             "option cells, or the filter "
-                             "vtkCellCenters, makes samples of them.");
+    info_.notes.push_back({"cell_data_left_out", {}});
 }
 
 /** Names of the data of cells. */
@@ -351,8 +350,9 @@ toPointCloud(vtkDataSet* data)
   PointArrays points = collectPoints(*data);
   for (const auto& array : points.others)
     points.dataset.notes.push_back(
-        "The array " + quoteText(array->GetName() ? array->GetName() : "") +
-        " holds no numbers but is a " + array->GetClassName() + " and is left out.");
+        {"array_of_texts",
+         {{"array", shortenText(array->GetName() ? array->GetName() : "")},
+          {"type", array->GetClassName()}}});
   return std::move(points.dataset);
 }
 

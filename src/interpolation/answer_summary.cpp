@@ -34,12 +34,6 @@ describeSamples(const CloudView& cloud,
   described.spread = count > 0.0 ? std::sqrt(squares / count) : 0.0;
 }
 
-std::string
-share(std::uint64_t part, std::uint64_t whole, const char* of)
-{
-  return std::to_string(part) + " of the " + std::to_string(whole) + ' ' + of;
-}
-
 } // namespace
 
 AnswerSummary::AnswerSummary(const CloudView& cloud,
@@ -80,11 +74,9 @@ AnswerSummary::warn(Report& report) const
   warnOfSupport(report);
   for (const Field& field : fields_)
     if (field.wild > 0)
-      report.warnings.push_back(share(field.wild, field.count, "values") + " of " +
-                                field.name +
-                                " lie farther beyond the samples' range than that is "
-                                "wide: the model overshoots "
-                                "there. The model natural stays within it.");
+      report.warn(
+          "overshoots",
+          {{"wild", field.wild}, {"values", field.count}, {"field", field.name}});
 }
 
 void
@@ -94,8 +86,7 @@ AnswerSummary::warnOfSupport(Report& report) const
                       outside = report.getCount("outside"),
                       invalid = report.getCount("invalid");
   if (2 * invalid > queries) {
-    report.warnings.push_back(share(invalid, queries, "queries") +
-                              " have no finite coordinates, and no value.");
+    report.warn("invalid_queries", {{"invalid", invalid}, {"queries", queries}});
     return;
   }
   if (2 * outside > queries) {
@@ -103,27 +94,22 @@ AnswerSummary::warnOfSupport(Report& report) const
         std::any_of(fields_.begin(), fields_.end(), [&](const Field& field) {
           return field.count > queries - outside;
         });
-    report.warnings.push_back(
-        share(outside, queries, "queries") + " lie outside of the data: " +
-        (has_values ? "their values rest on no samples around them."
-                    : "they have no value (NaN)."));
+    report.warn(
+        "queries_outside",
+        {{"outside", outside}, {"queries", queries}, {"has_values", has_values}});
     return;
   }
   const std::uint64_t weak =
       report.getCount("bridged") + report.getCount("rim") + report.getCount("reduced");
   if (2 * weak > queries - outside) {
-    report.warnings.push_back(
-        share(weak, queries, "queries") +
-        " lie in gaps of the sampling or at its rim, or among samples that do not "
-        "determine the model: their values rest on little.");
+    report.warn("weak_support", {{"weak", weak}, {"queries", queries}});
     return;
   }
   for (const Field& field : fields_)
     if (2 * field.unsure > field.count)
-      report.warnings.push_back(
-          share(field.unsure, field.count, "values") + " of " + field.name +
-          " have a standard error above the spread of the samples: the model does not "
-          "know the field there. Leaving samples out tells which one does better.");
+      report.warn(
+          "unsure_values",
+          {{"unsure", field.unsure}, {"values", field.count}, {"field", field.name}});
 }
 
 } // namespace pcl_uvol::detail

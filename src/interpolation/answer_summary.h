@@ -42,7 +42,7 @@ public:
     return fields_;
   }
 
-  /** \brief One sentence where most of the queries lie outside of the data, most of the
+  /** \brief One warning where most of the queries lie outside of the data, most of the
    * values rest on little, or most errors are as large as the field varies; and one
    * where values lie far beyond those of the samples.
    * \param report has the counts of FieldInterpolation */

@@ -86,13 +86,8 @@ warnOfNothingCovered(const std::vector<FieldScore>& scores, Report& report)
       return;
     tested = std::max(tested, score.tested);
   }
-  if (tested == 0)
-    return;
-  report.warnings.push_back(
-      "None of the " + std::to_string(tested) +
-      " held-out samples has a value: each fold is outside of the samples that remain. "
-      "The test measures no error. Try: -extrapolate, more folds, or -validate-by "
-      "blocks.");
+  if (tested > 0)
+    report.warn("nothing_covered", {{"tested", tested}});
 }
 
 } // namespace

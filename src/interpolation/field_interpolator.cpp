@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/parallel.h"
 #include "common/parameter_json.h"
+#include "common/sample_checks.h"
 #include "common/scalar_field.h"
 #include "common/stretch_axes.h"
 #include "common/value_frame.h"
@@ -170,6 +171,7 @@ struct FieldInterpolator::Group {
                 .value;
       }
     report.count("conflicting_duplicates", conflicting);
+    warnOfConflicts(conflicting, samples.size(), fields.size(), report);
   }
 
   /** Which queries are inside of cells whose samples have the fields: 1, others 0. */

@@ -45,7 +45,7 @@ FoldSplit::interpolate(const CloudView& cloud,
   own.progress = report.progress;
   const FieldInterpolator interpolator(cloud, rest, parameters, threads, own);
   InterpolatedFields result = interpolator.interpolate(places, threads, own);
-  for (const std::string& warning : own.warnings)
+  for (const Message& warning : own.warnings)
     if (std::find(report.warnings.begin(), report.warnings.end(), warning) ==
         report.warnings.end())
       report.warnings.push_back(warning);

@@ -200,9 +200,7 @@ void
 KrigingModel::tell(Report& report) const
 {
   for (const std::string& name : constant_)
-    report.warnings.push_back("The field " + name +
-                              " is the same at all samples: there is no variogram, and "
-                              "every estimate is that value, with error 0.");
+    report.warn("no_variogram", {{"field", name}});
 }
 
 } // namespace pcl_uvol::detail

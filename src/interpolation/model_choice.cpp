@@ -150,9 +150,7 @@ chooseModel(const CloudView& cloud,
   checkParameters(parameters);
   detail::checkIndices(indices, cloud.count, "chooseModel");
   if (indices.size() < folds_in_all) {
-    report.warnings.push_back(
-        "There are too few samples to choose a model by: the local "
-        "fits are taken.");
+    report.warn("few_samples_for_choice");
     return {{{InterpolationModel::Fit, 0.0}}, 0};
   }
   return chooseModel(cloud,

@@ -43,8 +43,7 @@ checkBox(const Bounds& box)
     is_empty = is_empty && box.high[axis] == box.low[axis];
   }
   if (is_empty)
-    throw InvalidArgument("The box of the grid is a single point: give it another one, "
-                          "by -box, say.");
+    throw InvalidArgument("single_point_box", {});
 }
 
 double

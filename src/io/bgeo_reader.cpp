@@ -248,8 +248,8 @@ BgeoHeader::read(std::vector<Attribute>& attributes)
                 is_real ? Type::FLOAT32 : Type::INT32,
                 attribute.components);
     if (attribute.kind == Kind::Index && attribute.components > 1)
-      info.notes.push_back("The attribute " + quoteText(attribute.name) +
-                           " has several names per point: it holds their numbers.");
+      info.notes.push_back(
+          {"several_names", {{"attribute", shortenText(attribute.name)}}});
   }
   const std::size_t point_bytes = recordBytes(info.fields);
   if (info.count > cursor_.left() / point_bytes)
@@ -262,11 +262,9 @@ BgeoHeader::read(std::vector<Attribute>& attributes)
   if (counts.primitives > 0)
     passPrimitives(counts);
   if (counts.attributes > 0)
-    info.notes.push_back(std::to_string(counts.attributes) +
-                         " attributes of the whole file are left out.");
+    info.notes.push_back({"file_attributes", {{"attributes", counts.attributes}}});
   if (counts.point_groups > 0)
-    info.notes.push_back(std::to_string(counts.point_groups) +
-                         " groups of points are left out.");
+    info.notes.push_back({"point_groups", {{"groups", counts.point_groups}}});
   return info;
 }
 

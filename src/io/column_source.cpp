@@ -138,7 +138,7 @@ makeConstant(double value)
 
 ColumnSource::ColumnSource(std::uint64_t count,
                            std::vector<NamedColumn> columns,
-                           std::vector<std::string> notes)
+                           std::vector<Message> notes)
     : columns_(std::move(columns))
 {
   info_.count = count;

@@ -62,7 +62,7 @@ class PCL_UVOL_EXPORTS ColumnSource : public NumberedSource {
 public:
   ColumnSource(std::uint64_t count,
                std::vector<NamedColumn> columns,
-               std::vector<std::string> notes);
+               std::vector<Message> notes);
 
   void
   read(std::size_t count, std::uint8_t* records) override;

@@ -297,15 +297,6 @@ mixLengths(const std::array<std::string, 3>& names)
   return units.size() > 1;
 }
 
-/** What distances mix, "" where it is not known that they do. */
-std::string
-findMixture(System system, const std::array<std::string, 3>& names)
-{
-  if (system == Geographic)
-    return "degrees with another unit";
-  return mixLengths(names) ? "different units of length" : "";
-}
-
 bool
 saysDegreesOrNoUnit(const std::string& name, std::size_t axis)
 {
@@ -319,22 +310,20 @@ describeColumns(System system,
                 const std::array<std::size_t, 3>& found,
                 const std::vector<std::string>& names)
 {
-  CoordinateColumns columns{found, "", "", false};
+  CoordinateColumns columns{found, {}, {}, false};
   const std::string &x = names[found[0]], &y = names[found[1]], &z = names[found[2]];
-  const std::string mixture = findMixture(system, {x, y, z});
-  if (!mixture.empty())
-    columns.mixture = "Coordinates are " + x + ", " + y + " and " + z +
-                      ", so distances mix " + mixture + ". Try: " +
-                      (areGlobal(found, names)
-                           ? "-map auto, which maps degrees to kilometres or metres"
-                           : "columns in one unit of length") +
-                      ", or factors for the axes (-scale).";
+  const bool are_degrees = system == Geographic;
+  if (are_degrees || mixLengths({x, y, z}))
+    columns.mixture = {"mixed_units",
+                       {{"x", x},
+                        {"y", y},
+                        {"z", z},
+                        {"are_degrees", are_degrees},
+                        {"can_be_mapped", areGlobal(found, names)}}};
   if (system == CommonEnding)
-    columns.note =
-        "The columns " + shortenText(x) + ", " + shortenText(y) + " and " +
-        shortenText(z) +
-        " are taken as the coordinates, because their names share an ending. "
-        "Try: -xyz if other columns are the coordinates.";
+    columns.note = {
+        "common_ending",
+        {{"x", shortenText(x)}, {"y", shortenText(y)}, {"z", shortenText(z)}}};
   return columns;
 }
 
@@ -352,7 +341,7 @@ recognizeCoordinates(const std::vector<std::string>& names, bool on_map)
   if (on_map)
     if (const auto found = findAxes(Geographic, candidates[Geographic]);
         found && areGlobal(*found, names))
-      return CoordinateColumns{*found, "", "", true};
+      return CoordinateColumns{*found, {}, {}, true};
   for (std::size_t i = 0; i < systems; ++i) {
     const auto system = static_cast<System>(i);
     if (const auto found = findAxes(system, candidates[i]))

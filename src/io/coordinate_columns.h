@@ -2,6 +2,8 @@
 // Which columns of a table hold the coordinates.
 #pragma once
 
+#include <pcl_uvol/common/message.h>
+
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -13,8 +15,8 @@ namespace pcl_uvol::io {
 /** \brief The columns of x, y and z. */
 struct CoordinateColumns {
   std::array<std::size_t, 3> columns{{0, 1, 2}};
-  std::string note;       ///< what was assumed about their names; empty: nothing
-  std::string mixture;    ///< which units distances mix; empty: none that are known
+  std::optional<Message> note;    ///< what was assumed about their names
+  std::optional<Message> mixture; ///< which units distances mix, if that is known
   bool is_global = false; ///< x and y are longitude and latitude in degrees, for a map
 };
 

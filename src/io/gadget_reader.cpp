@@ -198,7 +198,7 @@ public:
   }
 
   std::unique_ptr<RecordSource>
-  open(std::vector<std::string> notes);
+  open(std::vector<Message> notes);
 
 private:
   struct Rows {
@@ -304,7 +304,7 @@ SnapshotFile::addBlock(const Block& block)
 }
 
 std::unique_ptr<RecordSource>
-SnapshotFile::open(std::vector<std::string> notes)
+SnapshotFile::open(std::vector<Message> notes)
 {
   bool has_masses = false;
   for (std::size_t kind = 0; kind < kinds; ++kind)
@@ -315,8 +315,7 @@ SnapshotFile::open(std::vector<std::string> notes)
         throwUnreadable(path_,
                         "it is damaged: its positions have " +
                             std::to_string(block.bytes) + " bytes");
-      notes.push_back("The block " + quoteText(block.label) +
-                      " does not fit the particles and is left out.");
+      notes.push_back({"unfitting_block", {{"block", shortenText(block.label)}}});
     }
   if (header_.here[kind_] > 0 && columns_.empty())
     throwUnreadable(path_, "it is truncated or damaged: it has no block of positions");
@@ -344,7 +343,7 @@ openGadget(const std::string& path, const LoadOptions& options)
     throwUnreadable(path,
                     "it is no snapshot of Gadget: it does not begin with a header");
   const Header header = readHeader(file, *layout);
-  std::vector<std::string> notes;
+  std::vector<Message> notes;
   const std::vector<std::string> parts = listSnapshotFiles(path, header.files);
   std::vector<std::uint64_t> counts(header.total.begin(), header.total.end());
   const std::size_t kind =

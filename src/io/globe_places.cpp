@@ -138,8 +138,9 @@ findFar(const Rings& rings, int typical)
   return rings.end();
 }
 
+/** "42.5 S" */
 std::string
-describeDegrees(double degrees, const char* letters)
+degreeWords(double degrees, const char* letters)
 {
   std::ostringstream text;
   text.precision(8);
@@ -148,7 +149,7 @@ describeDegrees(double degrees, const char* letters)
 }
 
 /** What is said of positions far from the others. */
-std::string
+Message
 describeFar(const Rings& rings,
             Rings::const_iterator far,
             const MapProjection& centre,
@@ -161,17 +162,14 @@ describeFar(const Rings& rings,
     count += ring->second.count;
   const Place& example = far->second.first;
   const Place at = centre.toMap(example[0], example[1]);
-  std::ostringstream text;
-  text
-      << count << " of " << all << " positions " << (count == 1 ? "is" : "are")
-      << " far from all others, for example at " << describeDegrees(example[0], "EW")
-      << ", " << describeDegrees(example[1], "NS") << ", "
-      << std::lround(std::hypot(at[0], at[1]))
-      << " km from their median. Such positions are often missing fixes. Try: -where \""
-      << latitude << " != ";
-  text.precision(17);
-  text << example[1] << "\" leaves them out.";
-  return text.str();
+  return {"far_positions",
+          {{"far", count},
+           {"positions", all},
+           {"longitude", degreeWords(example[0], "EW")},
+           {"latitude", degreeWords(example[1], "NS")},
+           {"distance", std::lround(std::hypot(at[0], at[1]))},
+           {"field", latitude},
+           {"degrees", example[1]}}};
 }
 
 } // namespace
@@ -180,7 +178,7 @@ MapProjection
 chooseMap(const VisitGlobe& visit,
           const MapProjection& wanted,
           const std::string& latitude,
-          std::vector<std::string>& notes)
+          std::vector<Message>& notes)
 {
   Sketch<2> sketch;
   visit([&](double east, double north) {
@@ -227,12 +225,15 @@ chooseMap(const VisitGlobe& visit,
   return map;
 }
 
-std::string
-describeMap(const MapProjection& map)
+Message
+describeMap(const MapProjection& map, const std::string& z)
 {
-  return "Positions are mapped around " + describeDegrees(map.longitude, "EW") + ", " +
-         describeDegrees(map.latitude, "NS") + ": x and y are " +
-         (map.per_kilometre > 1.0 ? "metres" : "kilometres") + " to the east and north";
+  return {"mapped_positions",
+          {{"longitude", degreeWords(map.longitude, "EW")},
+           {"latitude", degreeWords(map.latitude, "NS")},
+           {"in_metres", map.per_kilometre > 1.0},
+           {"tells_z", !z.empty()},
+           {"z", z}}};
 }
 
 namespace {
@@ -375,7 +376,7 @@ putOnMap(Dataset& points, const std::optional<MapProjection>& wanted)
   setCoordinates(points, xyz);
   setMap(points, map);
   if (!wanted->isComplete())
-    points.notes.insert(points.notes.begin(), describeMap(map) + ".");
+    points.notes.insert(points.notes.begin(), describeMap(map));
 }
 
 namespace {
@@ -400,7 +401,7 @@ public:
     };
     map_ = chooseMap(visit, wanted, names[1], info_.notes);
     if (!wanted.isComplete())
-      info_.notes.insert(info_.notes.begin(), describeMap(*map_) + ".");
+      info_.notes.insert(info_.notes.begin(), describeMap(*map_));
     source_->seek(0);
   }
 

@@ -5,6 +5,7 @@
 #include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/map_projection.h>
+#include <pcl_uvol/common/message.h>
 
 #include <functional>
 #include <memory>
@@ -31,12 +32,13 @@ PCL_UVOL_EXPORTS MapProjection
 chooseMap(const VisitGlobe& visit,
           const MapProjection& wanted,
           const std::string& latitude,
-          std::vector<std::string>& notes);
+          std::vector<Message>& notes);
 
 /** \brief "Positions are mapped around 8.5 E, 42.5 S: x and y are metres to the east
- * and north". */
-PCL_UVOL_EXPORTS std::string
-describeMap(const MapProjection& map);
+ * and north."
+ * \param z what z is, if that is told as well */
+PCL_UVOL_EXPORTS Message
+describeMap(const MapProjection& map, const std::string& z = "");
 
 /** \brief Put points on a map by their fields of longitude and latitude, if they have
  * both and are on no map yet; z stays as it is. Without a map only say on which one

@@ -6,7 +6,6 @@
 #include "io/files.h"
 #include "io/ply_types.h"
 
-#include <algorithm>
 #include <cstring>
 
 namespace pcl_uvol {
@@ -73,8 +72,10 @@ heldFields(const std::string& ending, const Dataset& dataset)
 
 namespace {
 
-std::string
-describeFieldsLeftOut(const std::string& path, const Dataset& dataset)
+void
+noteFieldsLeftOut(const std::string& path,
+                  const Dataset& dataset,
+                  std::vector<Message>& losses)
 {
   const std::string ending = getEnding(path);
   std::string names;
@@ -84,17 +85,15 @@ describeFieldsLeftOut(const std::string& path, const Dataset& dataset)
       names += (names.empty() ? "" : ", ") + quoteText(field.name);
       ++count;
     }
-  if (count == 0)
-    return "";
-  return path + " leaves out the " + (count > 1 ? "fields " : "field ") + names +
-         ": the format has no 64-bit integers, and double does not hold " +
-         (count > 1 ? "their" : "its") +
-         " values exactly. Try: .vtp, .pcd or .csv to keep " +
-         (count > 1 ? "them." : "it.");
+  if (count > 0)
+    losses.push_back({"inexact_fields_left_out",
+                      {{"path", path}, {"fields", count}, {"names", names}}});
 }
 
-std::string
-describeUnheldLabels(const std::string& path, const Dataset& dataset)
+void
+noteUnheldLabels(const std::string& path,
+                 const Dataset& dataset,
+                 std::vector<Message>& losses)
 {
   const std::string ending = getEnding(path);
   const bool has_comments = ending == ".pcd" || ending == ".ply";
@@ -102,25 +101,21 @@ describeUnheldLabels(const std::string& path, const Dataset& dataset)
   for (const auto& field : dataset.cloud.fields)
     if (findLabels(dataset.cloud.fields, dataset.labels, field.name))
       fields += (fields.empty() ? "" : ", ") + quoteText(field.name);
-  if (fields.empty() || (!has_comments && ending != ".npz" && ending != ".vtkhdf"))
-    return "";
-  return path + " holds numbers only: the names in " + fields +
-         (has_comments ? " are counted from 0 in alphabetical order, and comments of "
-                         "the file list them."
-                       : " are counted from 0 in alphabetical order, and .csv, .ply or "
-                         ".vtp keep them.");
+  if (!fields.empty() && (has_comments || ending == ".npz" || ending == ".vtkhdf"))
+    losses.push_back({has_comments ? "numbered_names_listed" : "numbered_names",
+                      {{"path", path}, {"fields", fields}}});
 }
 
 } // namespace
 } // namespace io
 
-std::vector<std::string>
+std::vector<Message>
 describeLosses(const std::string& path, const Dataset& dataset)
 {
-  std::vector<std::string> sentences{io::describeFieldsLeftOut(path, dataset),
-                                     io::describeUnheldLabels(path, dataset)};
-  sentences.erase(std::remove(sentences.begin(), sentences.end(), ""), sentences.end());
-  return sentences;
+  std::vector<Message> losses;
+  io::noteFieldsLeftOut(path, dataset, losses);
+  io::noteUnheldLabels(path, dataset, losses);
+  return losses;
 }
 
 } // namespace pcl_uvol

@@ -5,6 +5,7 @@
 
 #include "common/records.h"
 #include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/message.h>
 
 #include <cstdint>
 #include <string>
@@ -26,10 +27,10 @@ heldFields(const std::string& ending, const Dataset& dataset);
 
 } // namespace io
 
-/** \brief What a file does not hold of a dataset, one sentence each: fields that are
- * left out, see io::heldFields(), and names that become numbers.
+/** \brief What a file does not hold of a dataset: fields that are left out, see
+ * io::heldFields(), and names that become numbers.
  * \param path of the file, whose ending is that of a mesh or of points */
-PCL_UVOL_EXPORTS std::vector<std::string>
+PCL_UVOL_EXPORTS std::vector<Message>
 describeLosses(const std::string& path, const Dataset& dataset);
 
 } // namespace pcl_uvol

@@ -149,8 +149,8 @@ public:
       appendField(info_.fields, attribute.name, attribute.datatype);
     if (header_.point_bytes > format_bytes[header_.format])
       info_.notes.push_back(
-          std::to_string(header_.point_bytes - format_bytes[header_.format]) +
-          " extra bytes of every point are left out.");
+          {"extra_bytes",
+           {{"bytes", header_.point_bytes - format_bytes[header_.format]}}});
   }
 
   void

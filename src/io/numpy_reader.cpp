@@ -369,10 +369,9 @@ openTable(const std::string& path, const Array& array)
   std::vector<std::string> names = axis_names;
   for (std::uint64_t i = 3; i < array.shape[1]; ++i)
     names.push_back("column_" + std::to_string(i));
-  std::vector<std::string> notes;
+  std::vector<Message> notes;
   if (names.size() > 3)
-    notes.push_back("The array names no columns: those behind x, y and z are called "
-                    "column_3 and so on.");
+    notes.push_back({"unnamed_columns", {}});
   columns.push_back(openColumn(array, names));
   return std::make_unique<ColumnSource>(
       array.rows(), std::move(columns), std::move(notes));
@@ -417,14 +416,13 @@ openNpz(const std::string& path)
         arrays[positions[i]],
         positions.size() == 1 ? axis_names : std::vector<std::string>{axis_names[i]}));
   const std::uint64_t rows = tables[positions[0]].rows;
-  std::vector<std::string> notes;
+  std::vector<Message> notes;
   for (std::size_t i = 0; i < arrays.size(); ++i) {
     if (std::find(positions.begin(), positions.end(), i) != positions.end())
       continue;
     if (arrays[i].shape.empty() || tables[i].rows != rows || tables[i].components < 1 ||
         tables[i].components > most_table_components)
-      notes.push_back("The array " + quoteText(tables[i].name) +
-                      " has no numbers for every point and is left out.");
+      notes.push_back({"array_of_others", {{"array", shortenText(tables[i].name)}}});
     else
       columns.push_back(openColumn(arrays[i], {tables[i].name}));
   }

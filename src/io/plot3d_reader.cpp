@@ -211,7 +211,7 @@ openGrid(const Plot3dFiles& files, std::size_t index)
          openStored(files.grid_file, begin, Type::INT32, 1, layout.swapped)});
   if (!files.solution_file)
     return std::make_unique<ColumnSource>(
-        grid.points, std::move(columns), std::vector<std::string>());
+        grid.points, std::move(columns), std::vector<Message>());
   const Layout& of_solution = files.solution_layout;
   const std::uint64_t step = grid.points * of_solution.getReal();
   const std::uint64_t first = files.solutions[index].begin + 3 * of_solution.getMark() +
@@ -230,7 +230,7 @@ openGrid(const Plot3dFiles& files, std::size_t index)
        std::make_unique<PlanesColumn>(std::move(momentum), of_solution.getReal())});
   columns.push_back({{"StagnationEnergy"}, type_of(of_solution), 1, number(4)});
   return std::make_unique<ColumnSource>(
-      grid.points, std::move(columns), std::vector<std::string>());
+      grid.points, std::move(columns), std::vector<Message>());
 }
 
 /** combxyz.bin has its solution in combq.bin, grid.p3d in grid.q. */

@@ -356,8 +356,8 @@ makeInfo(const std::string& path, const PlyElement& vertex, LabelNames&& labels)
     if (property.length_type == 0)
       appendField(info.fields, property.name, property.datatype);
     else
-      info.notes.push_back("The list property " + quoteText(property.name) +
-                           " of the vertices is left out.");
+      info.notes.push_back(
+          {"list_property", {{"property", shortenText(property.name)}}});
   if (info.fields.empty())
     throwUnreadable(path, "its vertices have no coordinates");
   renameFields(info.fields, ply_normals, cloud_normals);

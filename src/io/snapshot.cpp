@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <sstream>
 #include <system_error>
 
 namespace pcl_uvol {
@@ -43,7 +42,7 @@ std::size_t
 chooseKind(const std::string& path,
            const std::vector<ParticleKind>& kinds,
            const std::string& chosen,
-           std::vector<std::string>& notes)
+           std::vector<Message>& notes)
 {
   std::uint64_t number = 0;
   const bool is_number = parseCount(chosen, number);
@@ -62,8 +61,7 @@ chooseKind(const std::string& path,
   const auto filled = std::count_if(
       kinds.begin(), kinds.end(), [](const ParticleKind& k) { return k.count > 0; });
   if (chosen.empty() && filled > 1)
-    notes.push_back("There are " + describeKinds(kinds) +
-                    " particles; the first are read, -particles chooses others.");
+    notes.push_back({"several_kinds", {{"kinds", describeKinds(kinds)}}});
   return found->number;
 }
 
@@ -112,19 +110,15 @@ toBox(const std::vector<double>& sides)
 }
 
 void
-noteHeader(const CosmologyHeader& header, std::vector<std::string>& notes)
+noteHeader(const CosmologyHeader& header, std::vector<Message>& notes)
 {
   const bool has_hubble = header.hubble && *header.hubble > 0.0;
   if (!(header.redshift > 1e-9) && !(has_hubble && *header.hubble != 1.0))
     return;
-  std::ostringstream text;
-  text << "Numbers are those of the file, whose units hold factors of the redshift "
-       << header.redshift;
-  if (has_hubble)
-    text << " and of the Hubble parameter " << *header.hubble << ".";
-  else
-    text << ". The file does not give the Hubble parameter.";
-  notes.push_back(text.str());
+  notes.push_back({"comoving_units",
+                   {{"redshift", header.redshift},
+                    {"has_hubble", has_hubble},
+                    {"hubble", header.hubble.value_or(0.0)}}});
 }
 
 } // namespace io

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/message.h>
 
 #include <array>
 #include <cstddef>
@@ -34,7 +35,7 @@ PCL_UVOL_EXPORTS std::size_t
 chooseKind(const std::string& path,
            const std::vector<ParticleKind>& kinds,
            const std::string& chosen,
-           std::vector<std::string>& notes);
+           std::vector<Message>& notes);
 
 /** \brief The files of a snapshot, of which the name ends in a number, as in
  * snap_005.3 or snap_005.3.hdf5.
@@ -54,9 +55,9 @@ struct CosmologyHeader {
 PCL_UVOL_EXPORTS std::array<double, 3>
 toBox(const std::vector<double>& sides);
 
-/** \brief A sentence on comoving units. */
+/** \brief A note on comoving units. */
 PCL_UVOL_EXPORTS void
-noteHeader(const CosmologyHeader& header, std::vector<std::string>& notes);
+noteHeader(const CosmologyHeader& header, std::vector<Message>& notes);
 
 } // namespace io
 } // namespace pcl_uvol

@@ -83,7 +83,7 @@ private:
   CoordinateRange range_;
   std::optional<NormalColumns> normals_;
   std::uint64_t count_ = 0;
-  std::vector<std::string> notes_;
+  std::vector<Message> notes_;
 };
 
 TextTable::TextTable(const std::string& path, const LoadOptions& options)
@@ -134,14 +134,14 @@ TextTable::startColumns(std::string_view header, std::size_t line)
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (names[i] != originals[i])
       if (++renamed <= most_notes)
-        notes_.push_back("Line " + std::to_string(line) + " names " +
-                         quoteText(originals[i]) + " again: that column is called " +
-                         quoteText(names[i]) + ".");
+        notes_.push_back({"repeated_column",
+                          {{"line", line},
+                           {"name", shortenText(originals[i])},
+                           {"column", shortenText(names[i])}}});
     appendColumn(names[i]);
   }
   if (renamed > most_notes)
-    notes_.push_back(std::to_string(renamed - most_notes) +
-                     " more columns are told apart in the same way.");
+    notes_.push_back({"more_repeated_columns", {{"columns", renamed - most_notes}}});
 }
 
 void
@@ -150,9 +150,7 @@ TextTable::startUnnamedColumns(std::size_t count)
   has_header_ = false;
   for (std::size_t i = 0; i < count; ++i)
     appendColumn("column_" + std::to_string(i));
-  notes_.push_back(
-      "There is no header line: the columns are called column_0 to column_" +
-      std::to_string(count - 1) + ".");
+  notes_.push_back({"no_header_line", {{"last", count - 1}}});
 }
 
 /** The first of these that stands outside of quotes. */
@@ -237,10 +235,10 @@ TextTable::findCoordinates()
   }
   if (const auto found = recognizeCoordinates(names, options_.map.has_value())) {
     is_global_ = found->is_global;
-    if (!found->note.empty())
-      notes_.push_back(found->note);
-    if (!found->mixture.empty() && !options_.may_mix_units)
-      notes_.push_back(found->mixture);
+    if (found->note)
+      notes_.push_back(*found->note);
+    if (found->mixture && !options_.may_mix_units)
+      notes_.push_back(*found->mixture);
     return found->columns;
   }
   if (columns_.size() < 3)
@@ -249,24 +247,20 @@ TextTable::findCoordinates()
                         " columns, and coordinates need three, separated by "
                         "comma, semicolon, tab or blanks");
   if (const auto named = findPossibleCoordinate(names))
-    throwUnreadable(path_,
-                    "its header names only some of x, y and z, as by " +
-                        quoteText(*named) +
-                        ": choose the columns of the coordinates by their names or "
-                        "numbers (-xyz)");
+    throw IOError("some_coordinates_named",
+                  {{"path", printable(path_)}, {"column", shortenText(*named)}});
   std::vector<std::size_t> guess;
   for (std::size_t i = 0; i < names.size() && guess.size() < 3; ++i)
     if (!saysTime(names[i]))
       guess.push_back(i);
   if (guess.size() < 3)
-    throwUnreadable(path_,
-                    "its header names no coordinates but times: choose the columns of "
-                    "the coordinates by their names or numbers (-xyz)");
+    throw IOError("only_times_named", {{"path", printable(path_)}});
   are_guessed_ = has_header_;
-  notes_.push_back("The header names no x, y, z: the first three columns" +
-                   std::string(guess[2] > 2 ? " that are no times (" : " (") +
-                   shortenText(names[guess[0]]) + ", " + shortenText(names[guess[1]]) +
-                   ", " + shortenText(names[guess[2]]) + ") are the coordinates.");
+  notes_.push_back({"guessed_coordinates",
+                    {{"skips_times", guess[2] > 2},
+                     {"x", shortenText(names[guess[0]])},
+                     {"y", shortenText(names[guess[1]])},
+                     {"z", shortenText(names[guess[2]])}}});
   return {{guess[0], guess[1], guess[2]}};
 }
 
@@ -289,11 +283,9 @@ TextTable::checkGuess() const
     return;
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (columns_[axis].integers && columns_[axis].numbers > 0)
-      throwUnreadable(path_,
-                      "its header names no coordinates, and whole numbers as in " +
-                          quoteText(guessed_[axis]) +
-                          " may be anything: choose the columns of the coordinates by "
-                          "their names or numbers (-xyz)");
+      throw IOError(
+          "whole_numbers_guessed",
+          {{"path", printable(path_)}, {"column", shortenText(guessed_[axis])}});
 }
 
 /** Keeps longitude, latitude and the vertical as fields: coordinates are copies, which
@@ -426,10 +418,10 @@ addNames(const TextColumn& column, RecordInfo& info)
 {
   info.labels.emplace(column.name, column.labels);
   if (column.isMostlyNumbers())
-    info.notes.push_back("The column " + quoteText(column.name) +
-                         " is kept as names, since " + quoteText(column.first_text) +
-                         " in line " + std::to_string(column.first_text_line) +
-                         " is no number.");
+    info.notes.push_back({"kept_as_names",
+                          {{"column", shortenText(column.name)},
+                           {"cell", shortenText(column.first_text)},
+                           {"line", column.first_text_line}}});
 }
 
 RecordInfo
@@ -445,16 +437,16 @@ TextTable::describe()
   std::vector<TextColumn> taken;
   for (auto& column : columns_) {
     if (column.holdsNames() && column.labels.empty()) {
-      info.notes.push_back("The column " + quoteText(column.name) +
-                           " holds more than " + std::to_string(most_names) +
-                           " different names, and is left out.");
+      info.notes.push_back(
+          {"too_many_names",
+           {{"column", shortenText(column.name)}, {"most", most_names}}});
       continue;
     }
     if (column.holdsNames())
       addNames(column, info);
     else if (column.inexact)
-      info.notes.push_back("The column " + quoteText(column.name) +
-                           " holds integers beyond 2^53, which lose digits.");
+      info.notes.push_back(
+          {"rounded_integers", {{"column", shortenText(column.name)}}});
     const bool coordinate = &column - columns_.data() < 3;
     appendField(info.fields,
                 column.name,

@@ -123,6 +123,23 @@ public:
   }
 
   void
+  send(const Message& message) const
+  {
+    send(message.code);
+    send(message.about);
+    send(std::uint64_t{message.values.size()});
+    for (const auto& [name, value] : message.values) {
+      const auto* const number = std::get_if<double>(&value);
+      send(name);
+      send(std::uint64_t{number != nullptr});
+      if (number)
+        send(number, sizeof(*number));
+      else
+        send(std::get<std::string>(value));
+    }
+  }
+
+  void
   send(VtkContent& content) const;
 
 private:
@@ -159,7 +176,7 @@ Sender::send(VtkContent& content) const
   for (int i = 0; i < others.GetNumberOfArrays(); ++i)
     send(*others.GetArray(i));
   send(content.notes.size());
-  for (const std::string& note : content.notes)
+  for (const Message& note : content.notes)
     send(note);
 }
 
@@ -195,7 +212,7 @@ runChild(int descriptor,
   }
   catch (const IOError& error) {
     sender.send(static_cast<std::uint64_t>(Answer::Error));
-    sender.send(error.message());
+    sender.send(error.asMessage());
   }
   catch (const std::bad_alloc&) {
     sender.send(static_cast<std::uint64_t>(Answer::NoMemory));
@@ -227,6 +244,8 @@ private:
   receiveNumber();
   std::string
   receiveText();
+  Message
+  receiveMessage();
   vtkSmartPointer<vtkDataArray>
   receiveArray();
   int
@@ -345,6 +364,25 @@ Child::receiveText()
   return text;
 }
 
+Message
+Child::receiveMessage()
+{
+  Message message(receiveText(), {});
+  message.about = receiveText();
+  const std::uint64_t values = receiveNumber();
+  for (std::uint64_t i = 0; i < values; ++i) {
+    const std::string name = receiveText();
+    if (receiveNumber() == 0)
+      message.values.emplace_back(name, receiveText());
+    else {
+      double number = 0.0;
+      receive(&number, sizeof(number));
+      message.values.emplace_back(name, number);
+    }
+  }
+  return message;
+}
+
 vtkSmartPointer<vtkDataArray>
 Child::receiveArray()
 {
@@ -372,7 +410,7 @@ Child::take()
   case Answer::Content:
     break;
   case Answer::Error:
-    throw IOError(receiveText());
+    throw IOError(receiveMessage());
   case Answer::NoMemory:
     throwUnreadable(path_,
                     "the reader of VTK takes more than " +
@@ -400,7 +438,7 @@ Child::take()
   VtkContent content{set, {}};
   const std::uint64_t notes = receiveNumber();
   for (std::uint64_t i = 0; i < notes; ++i)
-    content.notes.push_back(receiveText());
+    content.notes.push_back(receiveMessage());
   return content;
 }
 

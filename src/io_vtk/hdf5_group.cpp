@@ -72,9 +72,9 @@ Hdf5Group::takeFields(const std::string& group)
         shape->rows != rows_)
       continue; // a group, a table of something else
     if (shape->components > most_table_components)
-      notes_.push_back("The table " + quoteText(dataset) + " has " +
-                       std::to_string(shape->components) +
-                       " numbers per point and is left out.");
+      notes_.push_back(
+          {"wide_table",
+           {{"table", shortenText(dataset)}, {"components", shape->components}}});
     else
       add({name}, dataset, *shape);
   }

@@ -34,7 +34,7 @@ public:
   takeFields(const std::string& group);
 
   std::unique_ptr<ColumnSource>
-  open(std::vector<std::string> notes)
+  open(std::vector<Message> notes)
   {
     notes.insert(notes.end(), notes_.begin(), notes_.end());
     return std::make_unique<ColumnSource>(rows_, std::move(columns_), std::move(notes));
@@ -63,7 +63,7 @@ private:
   std::uint64_t rows_ = 0;
   std::vector<std::string> taken_;
   std::vector<NamedColumn> columns_;
-  std::vector<std::string> notes_;
+  std::vector<Message> notes_;
 };
 
 /** \brief The particles of a snapshot of Phantom, with their density rho; null for a

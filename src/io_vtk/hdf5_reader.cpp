@@ -51,7 +51,7 @@ isGadgetFamily(const Hdf5File& file)
 
 /** The particles of one kind in one file. */
 std::unique_ptr<RecordSource>
-openKind(const std::string& path, std::size_t kind, std::vector<std::string> notes)
+openKind(const std::string& path, std::size_t kind, std::vector<Message> notes)
 {
   const Hdf5File file(path);
   const std::string group = "/PartType" + std::to_string(kind);
@@ -111,7 +111,7 @@ openGadgetFamily(const Hdf5File& file, const LoadOptions& options)
   auto total = countsIn(file.readAttribute("/Header", "NumPart_Total"));
   if (parts.size() == 1 || total.empty())
     total = countsIn(file.readAttribute("/Header", "NumPart_ThisFile"));
-  std::vector<std::string> notes;
+  std::vector<Message> notes;
   const std::size_t kind =
       chooseKind(path, listGadgetKinds(total), options.particles, notes);
   noteHeader(readCosmology(file), notes);
@@ -143,7 +143,7 @@ listGroups(const Hdf5File& file)
 }
 
 std::unique_ptr<RecordSource>
-openGroup(Hdf5Group& reader, const std::string& group, std::vector<std::string> notes)
+openGroup(Hdf5Group& reader, const std::string& group, std::vector<Message> notes)
 {
   reader.takeFields(group);
   reader.takeFields(joinNames(group, "PointData")); // VTKHDF without its type
@@ -164,12 +164,12 @@ openAnyGroup(const Hdf5File& file)
         "it is no snapshot, and no group of it has tables of coordinates "
         "with a usual name (x, y, z or Coordinates, positions, pos); behind "
         "the file they can be named, as in file.h5:/group/x,y,z");
-  std::vector<std::string> notes;
+  std::vector<Message> notes;
   if (found.size() > 1)
-    notes.push_back(
-        "Points are read from " + quoteText(found[0]) + "; " +
-        std::to_string(found.size() - 1) +
-        " other groups hold points too, as in file.h5:" + printable(found[1]) + ".");
+    notes.push_back({"several_groups",
+                     {{"group", shortenText(found[0])},
+                      {"others", found.size() - 1},
+                      {"other", printable(found[1])}}});
   Hdf5Group reader(file, found[0]);
   reader.findCoordinates();
   return openGroup(reader, found[0], std::move(notes));
@@ -218,8 +218,7 @@ openHdf5(const std::string& path, const LoadOptions& options)
     if (auto phantom = openPhantom(file, options.particles))
       return phantom;
   if (!options.particles.empty())
-    throwUnreadable(
-        path, "-particles chooses from snapshots, and this is none that is known");
+    throw IOError("unknown_snapshot", {{"path", printable(path)}});
   if (auto data = openVtkHdf(file, name.inside.empty() ? vtkhdf_group : name.inside))
     return data;
   return name.inside.empty() ? openAnyGroup(file) : openInside(file, name.inside);

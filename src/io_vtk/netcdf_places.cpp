@@ -159,17 +159,15 @@ PlaceMaps
 mapPlaces(const SampleSpace& space,
           const PlaceVariables& places,
           const MapProjection& wanted,
-          std::vector<std::string>& notes)
+          std::vector<Message>& notes)
 {
   PlaceMaps maps;
-  std::string text;
   if (places.is_global) {
     const MapProjection map = chooseMap(
         visitPlaces(space, places), wanted, printable(places.axes[1]->name), notes);
     const std::array<double, 2> origin{{map.longitude, map.latitude}};
     for (std::size_t axis = 0; axis < 2; ++axis)
       maps.axes[axis] = {origin[axis], map.findFactors()[axis], axis == 0};
-    text = describeMap(map) + ", ";
     maps.projection = map;
   }
   const NetcdfVariable* const height = places.axes[2];
@@ -180,11 +178,13 @@ mapPlaces(const SampleSpace& space,
     return maps;
   const std::string unit =
       height ? printable(space.getFile().readText(*height, "units")) : "";
-  text += height
-              ? std::string("z is ") + (sign < 0.0 ? "minus " : "") +
-                    printable(height->name) + (unit.empty() ? "" : " in " + unit) + "."
-              : "z is 0.";
-  notes.insert(notes.begin(), text);
+  const std::string z = height
+                            ? (sign < 0.0 ? "minus " : "") + printable(height->name) +
+                                  (unit.empty() ? "" : " in " + unit)
+                            : "0";
+  notes.insert(notes.begin(),
+               maps.projection ? describeMap(*maps.projection, z)
+                               : Message("vertical_axis", {{"z", z}}));
   return maps;
 }
 

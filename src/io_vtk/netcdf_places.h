@@ -5,6 +5,7 @@
 
 #include "io_vtk/netcdf_samples.h"
 #include <pcl_uvol/common/map_projection.h>
+#include <pcl_uvol/common/message.h>
 
 #include <array>
 #include <optional>
@@ -47,12 +48,12 @@ struct PlaceMaps {
 };
 
 /** \param wanted what the projection shall be like, see chooseMap()
- * \param notes get a sentence that says so */
+ * \param notes get one that says so */
 PlaceMaps
 mapPlaces(const SampleSpace& space,
           const PlaceVariables& places,
           const MapProjection& wanted,
-          std::vector<std::string>& notes);
+          std::vector<Message>& notes);
 
 } // namespace io
 } // namespace pcl_uvol

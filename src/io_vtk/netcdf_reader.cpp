@@ -137,7 +137,7 @@ openNetcdf(const std::string& path, const LoadOptions& options)
   const auto file = std::make_shared<const NetcdfFile>(path);
   const PlaceVariables places = findPlaces(*file);
   const SampleSpace space(file, places.list());
-  std::vector<std::string> notes;
+  std::vector<Message> notes;
   const PlaceMaps maps =
       mapPlaces(space, places, options.map.value_or(MapProjection()), notes);
   std::vector<NamedColumn> columns;

@@ -119,7 +119,7 @@ private:
   bool
   hasKinds() const;
   std::vector<std::uint64_t>
-  chooseRows(std::vector<std::string>& notes) const;
+  chooseRows(std::vector<Message>& notes) const;
 
   const std::string group_ = "/particles";
   const Hdf5File& file_;
@@ -158,7 +158,7 @@ PhantomReader::addDensity()
 
 /** Particles of the kind asked for, else all that are not dead (h <= 0). */
 std::vector<std::uint64_t>
-PhantomReader::chooseRows(std::vector<std::string>& notes) const
+PhantomReader::chooseRows(std::vector<Message>& notes) const
 {
   const std::uint64_t rows = reader_.getRows();
   std::vector<bool> kept(rows, true);
@@ -172,7 +172,7 @@ PhantomReader::chooseRows(std::vector<std::string>& notes) const
             dead += length > 0.0 ? 0 : 1;
           });
   if (dead > 0)
-    notes.push_back(std::to_string(dead) + " dead particles (h <= 0) are left out.");
+    notes.push_back({"dead_particles", {{"dead", dead}}});
   std::map<int, std::uint64_t> counts;
   std::vector<std::int8_t> kinds(rows, 1);
   if (hasKinds())
@@ -214,7 +214,7 @@ PhantomReader::open()
                         " rows");
   reader_.takeFields(group_);
   addDensity();
-  std::vector<std::string> notes;
+  std::vector<Message> notes;
   std::vector<std::uint64_t> rows = chooseRows(notes);
   const std::uint64_t all = reader_.getRows();
   auto source = reader_.open(std::move(notes));

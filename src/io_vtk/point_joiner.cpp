@@ -108,8 +108,7 @@ PointJoiner::join() const
   content.data->GetFieldData()->Initialize(); // of the file, which nobody asks for
   for (const std::string& name : names_)
     if (content.data->GetPointData()->HasArray(name.c_str()) == 0)
-      content.notes.push_back("The field " + quoteText(name) +
-                              " is left out: not all of the parts have it.");
+      content.notes.push_back({"field_of_some_parts", {{"field", shortenText(name)}}});
   return content;
 }
 

@@ -88,11 +88,10 @@ checkArrayCount(const std::string& path, std::size_t arrays)
                         " arrays, which VTK takes minutes for");
 }
 
-std::string
+Message
 describeTexts(const std::string& name)
 {
-  return "The array " + quoteText(name) +
-         " holds no numbers but is a vtkStringArray and is left out.";
+  return {"array_of_texts", {{"array", shortenText(name)}, {"type", "vtkStringArray"}}};
 }
 
 void

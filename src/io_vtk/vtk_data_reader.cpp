@@ -29,8 +29,8 @@
 #include <filesystem>
 #include <functional>
 #include <iterator>
+#include <optional>
 #include <set>
-#include <sstream>
 
 namespace pcl_uvol {
 namespace io {
@@ -116,7 +116,7 @@ makeReader(const std::string& path, DataPlace place)
 
 /** Read the last of several times.
  * \return what to say of it */
-std::string
+std::optional<Message>
 updateAtLastTime(vtkAlgorithm& reader)
 {
   reader.UpdateInformation();
@@ -125,13 +125,13 @@ updateAtLastTime(vtkAlgorithm& reader)
   const int times = about->Has(key) != 0 ? about->Length(key) : 0;
   if (times == 0) {
     reader.Update();
-    return "";
+    return std::nullopt;
   }
   const double last = about->Get(key, times - 1);
   reader.UpdateTimeStep(last);
-  std::ostringstream text;
-  text << "Of " << times << " times the last one is read, " << last << '.';
-  return times > 1 ? text.str() : "";
+  if (times == 1)
+    return std::nullopt;
+  return Message("last_time", {{"times", times}, {"last", last}});
 }
 
 /** A file of a list. */
@@ -203,7 +203,7 @@ readHere(const std::string& path, DataPlace place, const VtkMessages& messages)
       throwUnreadable(path, "VTK says " + quoteText(messages.getError()));
   };
   const auto reader = makeReader(path, place);
-  const std::string note = updateAtLastTime(*reader);
+  const auto note = updateAtLastTime(*reader);
   check();
   PointJoiner points(path, place);
   if (vtkDataObject* const output = reader->GetOutputDataObject(0))
@@ -215,8 +215,8 @@ readHere(const std::string& path, DataPlace place, const VtkMessages& messages)
     return {none, {}};
   }
   VtkContent content = points.join();
-  if (!note.empty())
-    content.notes.push_back(note);
+  if (note)
+    content.notes.push_back(*note);
   return content;
 }
 
@@ -244,7 +244,7 @@ struct ReadLists {
 void
 visitFiles(const std::string& path,
            ReadLists& lists,
-           std::vector<std::string>& notes,
+           std::vector<Message>& notes,
            const std::function<void(const std::string& file)>& take)
 {
   if (lists.open == most_open_lists)
@@ -263,8 +263,8 @@ visitFiles(const std::string& path,
                              [&](const ListedFile& f) { return f.time != first; }),
               files.end());
   if (files.size() < all)
-    notes.push_back("Of the times that " + quoteText(path) + " lists the first one, " +
-                    printable(first) + ", is read.");
+    notes.push_back({"first_listed_time",
+                     {{"list", shortenText(path)}, {"time", printable(first)}}});
   for (const ListedFile& file : files)
     if (isFileList(file.path))
       visitFiles(file.path, lists, notes, take);
@@ -342,7 +342,7 @@ readFileList(const std::string& path, DataPlace place)
   PointJoiner points(path, place);
   ReadLists lists;
   lists.first = path;
-  std::vector<std::string> notes;
+  std::vector<Message> notes;
   visitFiles(path, lists, notes, [&](const std::string& file) {
     if (place == DataPlace::Cells)
       points.addPoints(*vtkPolyData::SafeDownCast(readApart(file, place).data));
@@ -351,9 +351,8 @@ readFileList(const std::string& path, DataPlace place)
           *(getEnding(file) == ".vtk" ? readVtkLegacy(file) : readVtkXml(file)).data);
   });
   if (lists.repeats > 0)
-    notes.push_back("The list " + quoteText(path) + " names files again " +
-                    std::to_string(lists.repeats) +
-                    " times: each of them is read once.");
+    notes.push_back(
+        {"repeated_files", {{"list", shortenText(path)}, {"times", lists.repeats}}});
   VtkContent content = points.join();
   content.notes.insert(content.notes.begin(), notes.begin(), notes.end());
   return content;
@@ -373,7 +372,7 @@ readSolidCells(const std::string& path)
   std::vector<SolidCells> parts;
   ReadLists lists;
   lists.first = path;
-  std::vector<std::string> notes;
+  std::vector<Message> notes;
   visitFiles(path, lists, notes, [&](const std::string& file) {
     if (SolidCells part = read(file); part.mesh)
       parts.push_back(std::move(part));

@@ -136,7 +136,7 @@ private:
   std::vector<Array> arrays_;
   Array scalars_, normals_;
   std::set<std::string> cell_arrays_; ///< names of data of cells
-  std::vector<std::string> notes_;
+  std::vector<Message> notes_;
 };
 
 std::uint64_t

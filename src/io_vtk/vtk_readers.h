@@ -4,6 +4,7 @@
 #pragma once
 
 #include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/message.h>
 
 #include <vtkSmartPointer.h>
 
@@ -19,7 +20,7 @@ namespace io {
 /** \brief What a file holds, and what is left out. */
 struct VtkContent {
   vtkSmartPointer<vtkDataSet> data;
-  std::vector<std::string> notes;
+  std::vector<Message> notes;
 };
 
 /** \brief The points of a .vtp, .vtu or .vts with their data, or the image of a .vti;
@@ -54,7 +55,7 @@ void
 checkArrayCount(const std::string& path, std::size_t arrays);
 
 /** \brief The note on an array that holds no numbers. */
-std::string
+Message
 describeTexts(const std::string& name);
 
 /** \throws IOError for a lattice without numbers at its points: nothing but memory

@@ -188,12 +188,6 @@ private:
   void
   addLayers(const Lattice& lattice);
   void
-  leaveOut(const std::string& name, const std::string& reason)
-  {
-    notes_.push_back("The array " + quoteText(name) + " " + reason +
-                     " and is left out.");
-  }
-  void
   noteCells();
   std::unique_ptr<RecordSource>
   open(std::uint64_t points)
@@ -206,7 +200,7 @@ private:
   const std::string& path_;
   std::string group_;
   std::vector<NamedColumn> columns_;
-  std::vector<std::string> notes_;
+  std::vector<Message> notes_;
 };
 
 /** The numbers of a table of one per row.
@@ -300,13 +294,16 @@ VtkHdfReader::addFields(std::uint64_t points)
     const auto shape = file_.findShape(table);
     const std::uint64_t first = firstCount("Steps/PointDataOffsets/" + name);
     if (!shape)
-      leaveOut(name, "holds no numbers");
+      notes_.push_back({"array_without_numbers", {{"array", shortenText(name)}}});
     else if (shape->components > most_table_components)
-      leaveOut(name, "has " + std::to_string(shape->components) + " numbers per point");
+      notes_.push_back(
+          {"wide_array",
+           {{"array", shortenText(name)}, {"components", shape->components}}});
     else if (first > shape->rows || points > shape->rows - first)
-      leaveOut(name,
-               "has " + std::to_string(shape->rows) + " tuples for " +
-                   std::to_string(points) + " points");
+      notes_.push_back({"unfitting_array",
+                        {{"array", shortenText(name)},
+                         {"tuples", shape->rows},
+                         {"points", points}}});
     else
       addColumn(name,
                 *shape,
@@ -320,8 +317,7 @@ VtkHdfReader::noteCells()
 {
   if (file_.list(inside("PointData")).empty() &&
       !file_.list(inside("CellData")).empty())
-    notes_.emplace_back("There are data of cells only, which are left out: ParaView's "
-                        "filter Cell Centers makes samples of them.");
+    notes_.push_back({"only_cell_data", {}});
 }
 
 std::unique_ptr<RecordSource>
@@ -348,9 +344,7 @@ VtkHdfReader::openPoints()
   const auto count = static_cast<std::uint64_t>(points);
   const auto steps = file_.readAttribute(inside("Steps"), "NSteps");
   if (!steps.empty() && steps[0] > 1.0)
-    notes_.push_back("Of its " +
-                     std::to_string(std::llround(std::min(steps[0], 1e15))) +
-                     " times the first one is read.");
+    notes_.push_back({"first_time", {{"times", std::round(std::min(steps[0], 1e15))}}});
   columns_.push_back(
       {{"x", "y", "z"},
        shape->datatype,
@@ -403,14 +397,15 @@ VtkHdfReader::addLayers(const Lattice& lattice)
     const std::string table = inside("PointData/" + name);
     const auto shape = file_.findShape(table);
     if (!shape)
-      leaveOut(name, "holds no numbers");
+      notes_.push_back({"array_without_numbers", {{"array", shortenText(name)}}});
     else if (shape->rows != lattice.sizes[2] || shape->components % of_layer != 0 ||
              shape->components / of_layer > most_table_components)
-      leaveOut(name,
-               "has " + std::to_string(shape->rows) + " layers of " +
-                   std::to_string(shape->components) + " numbers for " +
-                   std::to_string(lattice.sizes[2]) + " of " +
-                   std::to_string(of_layer) + " points");
+      notes_.push_back({"unfitting_layers",
+                        {{"array", shortenText(name)},
+                         {"layers", shape->rows},
+                         {"numbers", shape->components},
+                         {"needed", lattice.sizes[2]},
+                         {"points", of_layer}}});
     else {
       const auto components = static_cast<std::size_t>(shape->components / of_layer);
       addColumn(

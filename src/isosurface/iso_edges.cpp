@@ -206,8 +206,7 @@ warnOfReplacedFields(const std::vector<pcl::PCLPointField>& samples,
     if (!isPadding(field) && axisOf(field.name) < 0 &&
         field.name.rfind("normal_", 0) != 0 &&
         findField(samples, field.name) != nullptr)
-      report.warnings.push_back("The samples' field '" + field.name +
-                                "' is left out: isopoints have one of that name.");
+      report.warn("replaced_field", {{"field", field.name}});
 }
 
 } // namespace pcl_uvol

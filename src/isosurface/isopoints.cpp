@@ -42,17 +42,15 @@ warnIfOutside(double isovalue,
   if (range.min < rounded && rounded <= range.max)
     return;
   const double low = frame.toInput(range.min), high = frame.toInput(range.max);
-  const auto texts = describeNumbers({isovalue, low, high});
-  std::string text = "No isopoints for " + texts[0] + ": ";
-  if (range.min == range.max)
-    text += "all values of " + field + " are " + texts[1] + ".";
-  else if (rounded == range.min)
-    text += "it is the lowest value of " + field +
-            ", and values equal to the isovalue count as above.";
-  else
-    text += "it lies outside the range [" + texts[1] + ", " + texts[2] + "] of " +
-            field + ".";
-  report.warnings.push_back(text);
+  const auto words = describeNumbers({isovalue, low, high});
+  const char* const code = range.min == range.max ? "constant_field"
+                           : rounded == range.min ? "lowest_isovalue"
+                                                  : "no_isopoints";
+  report.warn(code,
+              {{"isovalue", words[0]},
+               {"field", field},
+               {"low", words[1]},
+               {"high", words[2]}});
 }
 
 std::vector<EdgeKey>

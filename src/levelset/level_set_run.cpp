@@ -6,7 +6,6 @@
 #include "levelset/deviation.h"
 #include "levelset/evolver.h"
 #include "levelset/level_set_input.h"
-#include "levelset/level_set_sentences.h"
 #include "levelset/mu_choice.h"
 #include "levelset/reinitialization.h"
 #include "levelset/robust_values.h"
@@ -41,6 +40,21 @@ findLargestPhi(const SampleSet& samples)
     }
   return level_set.most_extents *
          std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+}
+
+/** What helps against divergence, of the parameters that are not the stable ones. */
+std::string
+adviseStability(const LevelSetParameters& parameters)
+{
+  if (parameters.scheme == FitScheme::Linear)
+    return "use the quadratic scheme";
+  if (parameters.bound == StepBound::Cfl)
+    return "bound the steps by the stencils";
+  if (parameters.reinitialization == Reinitialization::Diffusion)
+    return "reinitialise by distance";
+  if (parameters.initial.kind != InitialKind::Values)
+    return "start from the values";
+  return "give a larger mu, or extract the isosurface without smoothing";
 }
 
 /** One run, from the samples to phi. */
@@ -185,12 +199,20 @@ private:
     summary_.mu = stages_.empty() ? 1.0 : stages_.front().mu;
   }
 
+  std::string
+  describeIsovalue() const
+  {
+    return describeNumbers({parameters_.isovalue})[0];
+  }
+
+  /** Values that are alike told an automatic mu nothing. */
   void
   warnOfTies()
   {
     const double share = shareOfCommonest(input_.f, crossing_);
     if (share > level_set.most_ties)
-      report_.warnings.push_back(describeTies(parameters_.isovalue, share));
+      report_.warn("tied_values",
+                   {{"isovalue", describeIsovalue()}, {"percent", 100.0 * share}});
   }
 
   bool
@@ -216,8 +238,7 @@ private:
     crossing_ = crossing;
     term_ = makeDataTerm(*band_, samples_, input_.f, threads_, report_);
     if (!(term_.slope > 0.0))
-      throw InvalidArgument("The values beside the isovalue " +
-                            describeNumbers({parameters_.isovalue})[0] +
+      throw InvalidArgument("The values beside the isovalue " + describeIsovalue() +
                             " do not change from sample to sample: a level set goes by "
                             "their slope. Extract the isosurface without smoothing.");
   }
@@ -417,14 +438,21 @@ private:
       reportLostFeatures();
     if (findCrossing(samples_, phi_, threads_).empty()) {
       summary_.converged = false;
-      report_.warnings.push_back(describeVanished(parameters_));
+      report_.warn(
+          "vanished",
+          {{"field", parameters_.field},
+           {"isovalue", describeIsovalue()},
+           {"starts_from_values", parameters_.initial.kind == InitialKind::Values}});
       return;
     }
     if (!summary_.converged)
-      report_.warnings.push_back(describeStepLimit(
-          parameters_,
-          summary_,
-          isLastStage() ? std::nullopt : std::optional(stages_.back().mu)));
+      report_.warn("not_converged",
+                   {{"isovalue", describeIsovalue()},
+                    {"steps", summary_.steps.size()},
+                    {"change", summary_.steps.back().change},
+                    {"is_last_stage", isLastStage()},
+                    {"mu", summary_.mu},
+                    {"chosen_mu", stages_.back().mu}});
     if (!summary_.smoothed) // the surface is that of the field itself, whatever phi is
       makeDistance(level_set.final_slope_error, [&] { return makeDistanceOfBand(); });
     if (stages_.empty())
@@ -493,11 +521,11 @@ private:
       lost += std::abs(term_.target[i]) > least &&
               (term_.target[i] < 0.0f) != (phi_[band_->centers[i]] < 0.0f);
     report_.count("lost_samples", lost);
-    if (static_cast<double>(lost) <
+    if (static_cast<double>(lost) >=
         level_set.lost_share * static_cast<double>(input_.crossing.size()))
-      return;
-    report_.warnings.push_back(
-        describeLostFeatures(parameters_.isovalue, lost, summary_.mu));
+      report_.warn(
+          "lost_features",
+          {{"lost", lost}, {"isovalue", describeIsovalue()}, {"mu", summary_.mu}});
   }
 
   const LevelSetParameters& parameters_;

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <utility>
 
 namespace pcl_uvol {
@@ -64,19 +63,6 @@ findSpikes(const SampleSet& samples,
       });
 }
 
-void
-warnOfSpikes(std::size_t spikes, std::size_t crossing, Report& report)
-{
-  std::ostringstream text;
-  text.precision(2);
-  text
-      << 100.0 * static_cast<double>(spikes) / static_cast<double>(crossing)
-      << " % of the samples next to the surface (" << spikes
-      << ") have values unlike those of all their neighbours: the level set takes them "
-         "for outliers and counts the median of the neighbours instead.";
-  report.warnings.push_back(text.str());
-}
-
 } // namespace
 
 std::vector<std::uint32_t>
@@ -103,7 +89,11 @@ tameValues(const SampleSet& samples,
       level_set.told_outliers * static_cast<double>(crossing.size());
   report.count("outliers", spikes.size());
   if (had_spikes)
-    warnOfSpikes(spikes.size(), crossing.size(), report);
+    report.warn("outliers",
+                {{"percent",
+                  100.0 * static_cast<double>(spikes.size()) /
+                      static_cast<double>(crossing.size())},
+                 {"outliers", spikes.size()}});
   for (const Spike& spike : spikes)
     f[spike.sample] = spike.replacement;
   if (!spikes.empty())

@@ -9,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <string>
 
 namespace pcl_uvol::detail {
 
@@ -30,11 +29,7 @@ warnOfOpen(const SurfaceFigures& figures, Report& report)
                     figures.pieces.end(),
                     [](const PieceMeasures& piece) { return piece.rims > 0; });
   if (open > 0)
-    report.warnings.push_back(
-        "Of " + std::to_string(figures.pieces.size()) + " pieces " +
-        std::to_string(open) +
-        " are open, or disagree with others about the outside: they enclose no "
-        "volume, and only their area is measured.");
+    report.warn("open_pieces", {{"pieces", figures.pieces.size()}, {"open", open}});
 }
 
 void
@@ -46,11 +41,8 @@ warnOfVague(const SurfaceFigures& figures, Report& report)
                all.area.error > large_error * all.area.value;
       });
   if (vague > 0)
-    report.warnings.push_back(
-        "Area or volume of " + std::to_string(vague) + " of " +
-        std::to_string(figures.isovalues.size()) +
-        " surfaces are not known to better than a third: vertices lie that far from "
-        "where the surface may be.");
+    report.warn("vague_measures",
+                {{"vague", vague}, {"surfaces", figures.isovalues.size()}});
 }
 
 /** Whether a closed surface has no volume and encloses no sample. */
@@ -69,14 +61,11 @@ warnOfMissedSamples(const SurfaceFigures& figures, Report& report)
     if (all.rims > 0 || all.triangles == 0 || !all.samples_beyond || hasNoVolume(all))
       continue;
     const auto beyond = static_cast<double>(*all.samples_beyond);
-    if (std::abs(static_cast<double>(all.samples) - beyond) <= many_missed * beyond)
-      continue;
-    report.warnings.push_back(
-        "At " + describeNumbers({all.isovalue})[0] + " the surface encloses " +
-        std::to_string(all.samples) + " samples, and " +
-        std::to_string(*all.samples_beyond) +
-        " have values beyond the isovalue: the mesh is coarser than clumps of few "
-        "samples, or leaves them out. For masses, take the sum beyond the isovalue.");
+    if (std::abs(static_cast<double>(all.samples) - beyond) > many_missed * beyond)
+      report.warn("missed_samples",
+                  {{"isovalue", describeNumbers({all.isovalue})[0]},
+                   {"enclosed", all.samples},
+                   {"beyond", beyond}});
   }
 }
 
@@ -112,21 +101,16 @@ void
 warnOfUnsure(const UnsurePieces& found, Report& report)
 {
   if (found.are_left_out && found.kept > 0)
-    report.warnings.push_back(
-        "All pieces of some isovalues (" + std::to_string(found.kept) + " of " +
-        std::to_string(found.pieces) +
-        " pieces) have an error as large as they are. They are kept, since nothing "
-        "would be left.");
+    report.warn("kept_unsure_pieces", {{"kept", found.kept}, {"pieces", found.pieces}});
   if (found.unsure == 0)
     return;
   const auto words = describeNumbers({found.area.value, found.area.error});
-  report.warnings.push_back(
-      std::to_string(found.unsure) + " of " + std::to_string(found.pieces) +
-      " pieces (area " + words[0] + " +- " + words[1] +
-      ") have an error as large as they are: few samples are around them, or only "
-      "debris far from the others. " +
-      (found.are_left_out ? "They are left out of all figures."
-                          : "Try: uvol_measure with -drop-unsure leaves them out."));
+  report.warn("unsure_pieces",
+              {{"unsure", found.unsure},
+               {"pieces", found.pieces},
+               {"area", words[0]},
+               {"error", words[1]},
+               {"are_left_out", found.are_left_out}});
 }
 
 void
@@ -136,20 +120,16 @@ warnOfMeasures(const SurfaceFigures& figures, Report& report)
   const auto flat =
       std::count_if(figures.isovalues.begin(), figures.isovalues.end(), hasNoVolume);
   if (flat > 0)
-    report.warnings.push_back(
-        std::to_string(flat) + " of " + std::to_string(figures.isovalues.size()) +
-        " surfaces have no volume, and no samples inside: a mesh in one plane "
-        "encloses nothing. If all samples are in one plane, the isosurface is a "
-        "curve.");
+    report.warn("flat_surfaces",
+                {{"flat", flat}, {"surfaces", figures.isovalues.size()}});
   warnOfVague(figures, report);
   warnOfMissedSamples(figures, report);
-  for (const PieceMeasures& all : figures.isovalues)
-    if (all.volume.value < -all.volume.error) {
-      report.warnings.push_back(
-          "The surface looks to the side that it encloses: volumes are "
-          "negative.");
-      break;
-    }
+  if (std::any_of(figures.isovalues.begin(),
+                  figures.isovalues.end(),
+                  [](const PieceMeasures& all) {
+                    return all.volume.value < -all.volume.error;
+                  }))
+    report.warn("negative_volumes");
 }
 
 } // namespace pcl_uvol::detail

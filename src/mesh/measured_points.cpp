@@ -168,12 +168,7 @@ public:
       in_gaps += points_.isInGap(i) ? share : 0.0;
     }
     if (in_gaps > most_in_gaps * area)
-      report.warnings.push_back(
-          std::to_string(std::lround(100.0 * in_gaps / area)) +
-          " % of the area lies in gaps between the samples or at their border, where "
-          "the samples do not tell whether the surface goes on. Shells and plates of a "
-          "few layers of samples look so: if the file has cells, contour the cells "
-          "instead.");
+      report.warn("area_in_gaps", {{"percent", std::lround(100.0 * in_gaps / area)}});
   }
 
   MeasuredSurface surface;
@@ -267,19 +262,11 @@ measurePoints(const CloudView& points, unsigned threads, Report& report)
   const auto alone = static_cast<double>(std::count(
       made.surface.list.of_vertex.begin(), made.surface.list.of_vertex.end(), -1));
   if (const double part = alone / static_cast<double>(points.count); part > most_alone)
-    report.warnings.push_back(
-        std::to_string(std::lround(100.0 * part)) +
-        " % of the points have no part in the area: they have no normal, stand at the "
-        "place of another one, or too few others are around.");
+    report.warn("points_without_area", {{"percent", std::lround(100.0 * part)}});
   const double contrary = static_cast<double>(fans.countContrary()) /
                           static_cast<double>(sorted.samples->size());
   if (contrary > most_contrary)
-    report.warnings.push_back(
-        std::to_string(std::lround(100.0 * contrary)) +
-        " % of the points stand among others that look to the other side: unless "
-        "sheets "
-        "of the surface lie closer together than its points, orient the normals, or "
-        "areas count twice.");
+    report.warn("contrary_normals", {{"percent", std::lround(100.0 * contrary)}});
   made.surface.corners = std::move(*corners);
   findBounds(made.surface);
   made.integrate();

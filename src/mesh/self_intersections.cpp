@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/self_intersections.h"
 
-#include "common/numbers.h"
 #include "common/parallel.h"
 #include "mesh/edge_fans.h"
 #include "mesh/exact_signs.h"
@@ -14,7 +13,6 @@
 #include <algorithm>
 #include <atomic>
 #include <functional>
-#include <sstream>
 
 namespace pcl_uvol::detail {
 
@@ -284,14 +282,12 @@ describeIntersections(const CloudView& vertices,
                          Eigen::Vector3d(origin[0], origin[1], origin[2])});
   }
   report.count("intersections", found.size());
-  if (!found.empty()) {
-    std::ostringstream text;
-    text << "The surface goes through itself: "
-         << describeCount(found.size(), "pair", "pairs")
-         << " of triangles intersect, the first at " << found[0].place[0] << ","
-         << found[0].place[1] << "," << found[0].place[2] << ".";
-    report.warnings.push_back(text.str());
-  }
+  if (!found.empty())
+    report.warn("self_intersections",
+                {{"pairs", found.size()},
+                 {"x", found[0].place[0]},
+                 {"y", found[0].place[1]},
+                 {"z", found[0].place[2]}});
   return found;
 }
 

@@ -226,10 +226,7 @@ public:
   {
     const double part = area_ > 0.0 ? without_error_ / area_ : 0.0;
     if (part > much_without_error)
-      report.warnings.push_back(
-          std::to_string(std::lround(100.0 * part)) +
-          " % of the area has vertices without an estimated error: the errors of the "
-          "figures are those of the rest.");
+      report.warn("area_without_error", {{"percent", std::lround(100.0 * part)}});
     detail::warnOfMeasures(figures, report);
     detail::warnOfUnsure(unsure_, report);
   }

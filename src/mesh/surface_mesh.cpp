@@ -149,15 +149,11 @@ warnOfCaps(const SurfaceTriangles& surface,
            Outside outside,
            Report& report)
 {
-  if (surface.cap_part <= large_cap)
-    return;
-  const long percent = std::lround(100.0 * surface.cap_part);
-  report.warnings.push_back(
-      "The mesh at " + describeNumbers({isovalue})[0] + " has " +
-      std::to_string(percent) +
-      " % of its area in caps at the border of the samples: if values are " +
-      (outside == Outside::Lower ? "higher" : "lower") +
-      " outside of the surface you want, ask for the other outside.");
+  if (surface.cap_part > large_cap)
+    report.warn("large_caps",
+                {{"isovalue", describeNumbers({isovalue})[0]},
+                 {"percent", std::lround(100.0 * surface.cap_part)},
+                 {"is_lower_outside", outside == Outside::Lower}});
 }
 
 /** \param is_even whether triangles were made even, so that slivers are a defect */
@@ -167,17 +163,13 @@ warnOfFolds(bool is_even, Report& report)
   const std::uint64_t folds = report.getCount("folds"),
                       slivers = is_even ? report.getCount("slivers") : 0,
                       triangles = report.getCount("triangles");
-  if (static_cast<double>(folds + slivers) <=
+  if (static_cast<double>(folds + slivers) >
       many_folds * static_cast<double>(triangles))
-    return;
-  report.warnings.push_back(
-      "Of " + std::to_string(triangles) + " triangles " + std::to_string(folds) +
-      " look away from the surface they are on" +
-      (is_even ? " and " + std::to_string(slivers) + " have an angle below 5 degrees"
-               : std::string()) +
-      ": the samples are too sparse, noisy or stretched there; filled gaps help "
-      "between "
-      "lines of samples, a level set in noise, and isopoints without a mesh anyway.");
+    report.warn("folds",
+                {{"triangles", triangles},
+                 {"folds", folds},
+                 {"is_even", is_even},
+                 {"slivers", slivers}});
 }
 
 } // namespace

@@ -135,8 +135,7 @@ dropConstants(std::vector<Attribute>& attributes,
     if (constant == attributes.end())
       return rows;
     for (auto attribute = constant; attribute != attributes.end(); ++attribute)
-      report.warnings.push_back("The attribute " + attribute->name +
-                                " is the same everywhere and is left out.");
+      report.warn("constant_attribute", {{"attribute", attribute->name}});
     attributes.erase(constant, attributes.end());
     if (attributes.empty())
       throw InvalidArgument("All attributes are the same at all points: nothing can be "

@@ -120,31 +120,6 @@ assignMembers(const CondensedTree& tree,
   return clustering;
 }
 
-/** What the user should know of the labels; empty: nothing. */
-std::string
-judgeClusters(std::size_t points,
-              std::size_t clusters,
-              std::size_t noise,
-              std::size_t min_size,
-              const ClusteringParameters& parameters)
-{
-  if (clusters > 0)
-    return 2 * noise <= points
-               ? std::string()
-               : std::to_string(noise) + " of " + std::to_string(points) +
-                     " points belong to no cluster: the clusters that were found tell "
-                     "little about these data.";
-  const std::string none = "No cluster found among " + std::to_string(points) +
-                           " points: none of at least " + std::to_string(min_size) +
-                           " points ";
-  if (parameters.cut_distance > 0.0)
-    return none + "hangs together at the distance " +
-           std::to_string(parameters.cut_distance) +
-           "; a larger distance or a smaller least size may find some.";
-  return none + "stands out from the others by more than chance; a smaller least size "
-                "may find some, or all points may be allowed to be a single cluster.";
-}
-
 void
 countClusters(const Clustering& clustering,
               std::size_t min_size,
@@ -159,10 +134,14 @@ countClusters(const Clustering& clustering,
   report.count("points", labels.size());
   report.count("clusters", clusters);
   report.count("noise", noise);
-  const std::string text =
-      judgeClusters(labels.size(), clusters, noise, min_size, parameters);
-  if (!text.empty())
-    report.warnings.push_back(text);
+  if (clusters == 0)
+    report.warn(parameters.cut_distance > 0.0 ? "no_clusters_at_distance"
+                                              : "no_clusters",
+                {{"points", labels.size()},
+                 {"min_size", min_size},
+                 {"distance", std::to_string(parameters.cut_distance)}});
+  else if (2 * noise > labels.size())
+    report.warn("mostly_noise", {{"noise", noise}, {"points", labels.size()}});
 }
 
 } // namespace

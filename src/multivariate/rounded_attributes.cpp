@@ -228,10 +228,7 @@ warnOfRounding(const AttributeTable& table,
       told += (told.empty() ? "" : "; ") + text;
   }
   if (!told.empty())
-    report.warnings.push_back(
-        told + ": if values are rounded, these clusters are steps of rounding. Uniform "
-               "noise of up to half a step, added to every rounded attribute, tells "
-               "which clusters do not rest on it.");
+    report.warn("clusters_of_rounding", {{"steps", told}});
 }
 
 } // namespace pcl_uvol

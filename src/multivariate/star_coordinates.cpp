@@ -186,10 +186,7 @@ starCoordinates(const AttributeTable& table,
   const Moments all = joined(clusters);
   clusters.erase(clusters.begin()); // noise
   if (clusters.size() < 2)
-    report.warnings.push_back(
-        "The rows are in " + std::to_string(clusters.size()) +
-        " clusters, so there is nothing to keep apart: the projection is to their "
-        "principal axes.");
+    report.warn("few_clusters", {{"clusters", clusters.size()}});
   if (clusters.size() < 2 || table.columns() <= 3)
     return principalAxes(table, threads);
 

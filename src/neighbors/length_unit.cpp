@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "neighbors/length_unit.h"
 
-#include "common/numbers.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>
@@ -113,14 +112,13 @@ Strays::add(const Strays& other)
 void
 Strays::warn(Report& report) const
 {
-  if (count == 0)
-    return;
-  std::ostringstream text;
-  text << describeCount(count, "point lies", "points lie")
-       << " 1e12 times as far out as most others and " << (count == 1 ? "is" : "are")
-       << " left out: " << (count == 1 ? "it is" : "the first is") << " point " << first
-       << " at (" << position[0] << ", " << position[1] << ", " << position[2] << ").";
-  report.warnings.push_back(text.str());
+  if (count > 0)
+    report.warn("strays",
+                {{"strays", count},
+                 {"first", first},
+                 {"x", position[0]},
+                 {"y", position[1]},
+                 {"z", position[2]}});
 }
 
 } // namespace pcl_uvol

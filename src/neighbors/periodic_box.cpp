@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace pcl_uvol {
 namespace {
@@ -40,18 +39,10 @@ warnOfMisfit(const SampleExtents& extents,
              Report& report)
 {
   const double length = extents.getLength(axis);
-  std::ostringstream text;
-  if (length < least_fill * side)
-    text << "Samples fill " << length << " of the side " << side << " of the box along "
-         << "xyz"[axis] << ": if they should fill it, its side is wrong.";
-  else if (length > most_fill * side)
-    text << "Samples extend over " << length << " along "
-         << "xyz"[axis] << ", and the box has a side of " << side
-         << ": they are moved into it by whole sides. If they are not unwrapped "
-            "positions, the side is wrong.";
-  else
-    return;
-  report.warnings.push_back(text.str());
+  if (length < least_fill * side || length > most_fill * side)
+    report.warn(
+        length < side ? "unfilled_box" : "samples_beyond_box",
+        {{"length", length}, {"side", side}, {"axis", std::string(1, "xyz"[axis])}});
 }
 
 std::uint64_t

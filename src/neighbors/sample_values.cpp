@@ -3,6 +3,7 @@
 
 #include "common/large_array.h"
 #include "common/parallel.h"
+#include "common/sample_checks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -72,6 +73,7 @@ gatherValues(const SampleSet& samples,
     scalar.sources[merged.sample] = found.source;
   }
   report.count("conflicting_duplicates", conflicting);
+  warnOfConflicts(conflicting, samples.size(), 1, report);
   return scalar;
 }
 

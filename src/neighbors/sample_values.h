@@ -91,7 +91,7 @@ findRepresentative(std::vector<std::uint32_t>& members,
 /** \brief Bring values into leaf order; a merged sample takes the median of its
  * members' values, see findRepresentative.
  * \param report gets the count "conflicting_duplicates": merged samples of unequal
- * values */
+ * values; and a warning if there are many */
 SampleValues
 gatherValues(const SampleSet& samples,
              const std::vector<float>& input_values,

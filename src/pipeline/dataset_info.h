@@ -44,8 +44,8 @@ struct PositionStatistics {
    * than two positions. */
   double spacing_min = 0.0, spacing_median = 0.0, spacing_max = 0.0;
   SamplingSummary sampling; ///< of the stretched space; of 0 samples below two
-  /** One sentence each: positions so far out that the others do not count them. */
-  std::vector<std::string> warnings;
+  /** Of positions so far out that the others do not count them. */
+  std::vector<Message> warnings;
 };
 
 /** \brief Bounds, duplicates and spacing; nothing but the count where no position is

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/records.h"
+#include "common/sample_checks.h"
 #include "common/scalar_field.h"
 #include "common/stretch_axes.h"
 #include "distributed/fetch_points.h"
@@ -83,27 +84,50 @@ finishIsopoints(const Isopoints& isopoints,
   return result;
 }
 
-/** Warn of what only the counts of all processes tell: each says the same. */
-void
-warnTogether(const IsosurfacePipelineParameters& parameters,
-             Communicator& communicator,
-             Report& report)
+/** The counts of all processes together. By all of them. */
+Report
+addCounts(const std::vector<std::string>& names,
+          const Report& report,
+          Communicator& communicator)
 {
-  constexpr const char* names[] = {"crossing_samples",
-                                   "spikes",
-                                   "contradicted",
-                                   "removed_by_error",
-                                   "removed_bridged",
-                                   "isopoints"};
   std::vector<std::uint64_t> counts;
-  for (const char* name : names)
+  for (const std::string& name : names)
     counts.push_back(report.getCount(name));
   communicator.allReduce(counts);
   Report together;
   for (std::size_t i = 0; i < counts.size(); ++i)
     together.setCount(names[i], counts[i]);
+  return together;
+}
+
+/** Warn of samples that differ at one place, images among them as in one process. */
+void
+warnOfConflicts(Communicator& communicator, Report& report)
+{
+  const Report together =
+      addCounts({"samples", "conflicting_duplicates"}, report, communicator);
+  warnOfConflicts(together.getCount("conflicting_duplicates"),
+                  together.getCount("samples"),
+                  1,
+                  report);
+}
+
+/** Warn of what only the counts of all processes tell: each says the same. */
+void
+warnOfLosses(const IsosurfacePipelineParameters& parameters,
+             Communicator& communicator,
+             Report& report)
+{
+  Report together = addCounts({"crossing_samples",
+                               "spikes",
+                               "contradicted",
+                               "removed_by_error",
+                               "removed_bridged",
+                               "isopoints"},
+                              report,
+                              communicator);
   warnOfLosses(parameters, together.getCount("isopoints"), together);
-  for (std::string& warning : together.warnings)
+  for (Message& warning : together.warnings)
     report.warnings.push_back(std::move(warning));
 }
 
@@ -138,6 +162,7 @@ DistributedIsosurfacePipeline::run()
                        communicator_,
                        threads_,
                        report_);
+  warnOfConflicts(communicator_, report_);
   if (is_gathered_)
     isopoints = gatherIsopoints(std::move(isopoints), communicator_, threads_);
   part.numberByPoints(isopoints);
@@ -148,7 +173,7 @@ DistributedIsosurfacePipeline::run()
                                             communicator_,
                                             threads_,
                                             std::move(report_));
-  warnTogether(parameters, communicator_, result.report);
+  warnOfLosses(parameters, communicator_, result.report);
   report_ = result.report;
   return result;
 }

@@ -2,6 +2,7 @@
 #include "pipeline/extract_out_of_core.h"
 
 #include "common/records.h"
+#include "common/sample_checks.h"
 #include "common/scalar_field.h"
 #include "common/stretch_axes.h"
 #include "isosurface/edge_ends.h"
@@ -147,6 +148,10 @@ runPipelineOutOfCore(PointSource& points,
                                              alone,
                                              out_of_core.threads,
                                              std::move(report));
+  warnOfConflicts(result.report.getCount("conflicting_duplicates"),
+                  result.report.getCount("samples"),
+                  1,
+                  result.report);
   warnOfLosses(resolved, result.surface.cloud.width, result.report);
   return result;
 }

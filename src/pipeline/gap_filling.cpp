@@ -210,9 +210,7 @@ FilledGaps::FilledGaps(const std::shared_ptr<const Dataset>& samples,
     predictBetween(roots, is_in_gap, parameters, threads, report);
   }
   if (has_gaps_ && summary_.predicted == 0)
-    report.warnings.push_back(
-        "There are gaps between the samples, and none was filled: " +
-        summary_.unfilled + ".");
+    report.warn("unfilled_gaps", {{"reason", summary_.unfilled}});
 }
 
 void
@@ -281,11 +279,8 @@ FilledGaps::predictBetween(const pcl::PointCloud<PointIso>& roots,
   }
   predict(seeds, parameters, threads, report);
   if (summary_.predicted > 0 && 2 * unsure < in_gaps)
-    report.warnings.push_back(
-        "Few gaps were filled: at " + std::to_string(in_gaps - unsure) + " of " +
-        std::to_string(in_gaps) +
-        " crossings of the surface in gaps, fits to the measured samples are surer of "
-        "it than kriging is.");
+    report.warn("few_filled_gaps",
+                {{"surer", in_gaps - unsure}, {"crossings", in_gaps}});
 }
 
 void

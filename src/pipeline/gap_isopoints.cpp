@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <utility>
 
 namespace pcl_uvol::detail {
@@ -54,16 +53,6 @@ struct FoundInGaps {
   std::size_t all = 0, unexplained = 0;
 };
 
-std::string
-tellWhyNone(const FoundInGaps& found)
-{
-  return "There are no isopoints between the samples: of " + std::to_string(found.all) +
-         " that were found, kriging explains nothing of the variance at " +
-         std::to_string(found.unexplained) + ", and " +
-         std::to_string(found.all - found.unexplained) +
-         " lie off the surface that it predicts.";
-}
-
 /** Says so where fits to the measured samples tell much more than kriging does.
  * \param measured median of their errors across gaps; infinite if there are none */
 void
@@ -76,15 +65,8 @@ warnOfWorse(const pcl::PointCloud<PointIso>& isopoints, float measured, Report& 
   if (errors.empty())
     return;
   const float median = computeMedian(errors);
-  if (!(median > much_worse * measured))
-    return;
-  std::ostringstream text;
-  text.precision(3);
-  text << "The surface is worse where gaps are filled: half of the errors between "
-          "predicted samples are above "
-       << median << ", between measured ones across a gap above " << measured
-       << ". Leave out -fill-gaps.";
-  report.warnings.push_back(text.str());
+  if (median > much_worse * measured)
+    report.warn("worse_in_gaps", {{"predicted", median}, {"measured", measured}});
 }
 
 /** Says so where the samples explain less than half of the variance at most isopoints
@@ -100,18 +82,15 @@ warnOfDoubt(const pcl::PointCloud<PointIso>& isopoints,
     if (isopoints[i].support == static_cast<std::uint8_t>(IsoSupport::Predicted))
       of_predicted.push_back(confidence[i]);
   if (of_predicted.empty() && found.all > 0)
-    report.warnings.push_back(tellWhyNone(found));
+    report.warn("no_isopoints_in_gaps",
+                {{"found", found.all},
+                 {"unexplained", found.unexplained},
+                 {"off_surface", found.all - found.unexplained}});
   if (of_predicted.empty())
     return;
   const float median = computeMedian(of_predicted);
-  if (median >= least_confidence)
-    return;
-  report.warnings.push_back(
-      "Between the samples the surface is a guess: at half of the isopoints there, "
-      "kriging explains no more than " +
-      std::to_string(static_cast<int>(100.0f * median)) +
-      " % of the variance (field confidence). A hold-out test tells how good it is "
-      "(-validate).");
+  if (!(median >= least_confidence))
+    report.warn("guess_in_gaps", {{"percent", static_cast<int>(100.0f * median)}});
 }
 
 } // namespace

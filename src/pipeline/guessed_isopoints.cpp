@@ -5,7 +5,7 @@
 #include "pipeline/thin_parts.h"
 
 #include <cstddef>
-#include <string>
+#include <utility>
 #include <vector>
 
 namespace pcl_uvol {
@@ -30,10 +30,11 @@ add(const PointIso& point,
     grounds.guessed += is_bisector || support == IsoSupport::Bridged;
 }
 
-std::string
-tellPart(std::size_t part, std::size_t all, const std::string& text)
+Message
+withPercent(Message message, std::size_t part, std::size_t all)
 {
-  return std::to_string(100 * part / all) + text;
+  message.values.emplace_back("percent", 100 * part / all);
+  return message;
 }
 
 } // namespace
@@ -78,85 +79,45 @@ addTogether(const SurfaceGrounds& own, Communicator& communicator)
   return {counts[0], counts[1], counts[2], counts[3], counts[4]};
 }
 
-std::string
+std::optional<Message>
 tellGuesses(const SurfaceGrounds& grounds,
             const std::optional<SamplingSummary>& sampling,
-            const std::string& advice)
+            Message guess)
 {
   const bool lie_all_around = sampling && sampling->most == LocalDimension::Volume;
   const std::size_t at_border =
                         grounds.at_border + (lie_all_around ? grounds.beside_gaps : 0),
                     all = grounds.at_border + grounds.beside_gaps + grounds.guessed;
   if (2 * at_border > grounds.known)
-    return tellPart(
-        at_border,
-        grounds.known,
-        " % of the isopoints lie at the border of the samples: the surface may go "
-        "on beyond it.");
+    return withPercent({"isopoints_at_border", {}}, at_border, grounds.known);
   if (2 * all <= grounds.known)
-    return "";
+    return std::nullopt;
   if (lie_all_around && at_border > grounds.guessed)
-    return tellPart(
-        all,
-        grounds.known,
-        " % of the isopoints lie at the border of the samples or in gaps: the "
-        "surface may go on beyond it.");
-  return tellPart(
-      all,
-      grounds.known,
-      " % of the isopoints lie between lines of samples or beside gaps: where the "
-      "surface crosses a line is known, how it runs from there is a guess." +
-          advice);
+    guess = {"isopoints_beside_samples", {}};
+  return withPercent(std::move(guess), all, grounds.known);
 }
 
-std::string
+std::optional<Message>
 tellSmoothedGuesses(const Report& evolution, const SamplingSummary& sampling)
 {
-  return tellGuesses(findGrounds(evolution),
-                     sampling,
-                     " The isosurface through the same samples can be tested "
-                     "(uvol_isosurface -validate), and its gaps filled (-fill-gaps).");
+  return tellGuesses(findGrounds(evolution), sampling, {"smoothed_guesses", {}});
 }
 
-std::string
-tellThinParts(const SurfaceGrounds& grounds)
-{
-  if (4 * grounds.thin <= grounds.known)
-    return "";
-  return tellPart(
-      grounds.thin,
-      grounds.known,
-      " % of the isopoints are on parts or gaps that are thinner than two spacings: "
-      "they are one layer of samples, which cannot tell the two sides apart, or noise. "
-      "Areas and volumes there say little. If the file has cells, contour the cells "
-      "instead; if the values are noisy, smooth them.");
-}
-
-std::string
+std::optional<Message>
 tellGuessedBorder(const SurfaceGrounds& grounds)
 {
   const std::size_t all = grounds.at_border + grounds.beside_gaps + grounds.guessed;
   if (2 * all <= grounds.known)
-    return "";
-  return tellPart(
-      all,
-      grounds.known,
-      " % of the isopoints lie in or beside gaps between samples, and where "
-      "the border of the cluster runs there is a guess.");
+    return std::nullopt;
+  return withPercent({"guessed_border", {}}, all, grounds.known);
 }
 
-std::string
-adviseRemedies(const IsosurfacePipelineParameters& parameters)
+std::vector<MessageValue>
+listRemedies(const IsosurfacePipelineParameters& parameters)
 {
-  std::vector<std::string> remedies;
-  if (!parameters.automatic_scale && (parameters.isosurface.scale == 1.0f).all())
-    remedies.emplace_back("-scale");
-  if (!parameters.fill_gaps)
-    remedies.emplace_back("-fill-gaps");
-  std::string advice;
-  for (const std::string& remedy : remedies)
-    advice += (advice.empty() ? " " : " or ") + remedy;
-  return remedies.empty() ? "" : advice + " may help.";
+  return {{"scale",
+           !parameters.automatic_scale && (parameters.isosurface.scale == 1.0f).all()},
+          {"gaps", !parameters.fill_gaps}};
 }
 
 } // namespace pcl_uvol

@@ -13,7 +13,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace pcl_uvol {
@@ -51,34 +50,28 @@ findGrounds(const Report& linear_extraction);
 SurfaceGrounds
 addTogether(const SurfaceGrounds& own, Communicator& communicator);
 
-/** \brief A sentence where most isopoints do not rest on samples around them; else
- * empty.
+/** \brief A message where most isopoints do not rest on samples around them; else none.
  * \param sampling where samples lie all around, rims are the border of these
- * \param advice a sentence behind a space, where the surface is a guess */
-PCL_UVOL_EXPORTS std::string
+ * \param guess the message where the surface is a guess, all but its "percent" */
+PCL_UVOL_EXPORTS std::optional<Message>
 tellGuesses(const SurfaceGrounds& grounds,
             const std::optional<SamplingSummary>& sampling,
-            const std::string& advice);
+            Message guess);
 
 /** \brief The same of the surface that a level set smooths.
  * \param evolution the report of one that was examined, see
  * LevelSetEvolution::setExamined */
-PCL_UVOL_EXPORTS std::string
+PCL_UVOL_EXPORTS std::optional<Message>
 tellSmoothedGuesses(const Report& evolution, const SamplingSummary& sampling);
-
-/** \brief A sentence where many isopoints are on parts that are one layer of samples
- * thick; else empty. */
-std::string
-tellThinParts(const SurfaceGrounds& grounds);
 
 /** \brief The same of the border of a cluster, which lies somewhere between its samples
  * and the others. */
-std::string
+std::optional<Message>
 tellGuessedBorder(const SurfaceGrounds& grounds);
 
-/** \brief What may help where samples leave much open, of what was not asked for: a
- * sentence behind a space, empty if it was all. */
-std::string
-adviseRemedies(const IsosurfacePipelineParameters& parameters);
+/** \brief Whether "scale" and "gaps" may help where samples leave much open: what was
+ * not asked for. */
+std::vector<MessageValue>
+listRemedies(const IsosurfacePipelineParameters& parameters);
 
 } // namespace pcl_uvol

@@ -373,37 +373,27 @@ warnOfScores(const std::vector<ValidationScore>& scores,
              Report& report)
 {
   const bool lie_all_around = sampling && sampling->most == LocalDimension::Volume;
-  const auto warn_where = [&](const auto& holds, const std::string& sentence) {
+  const auto warn_where = [&](const auto& holds, const Message& message) {
     if (std::any_of(scores.begin(), scores.end(), holds))
-      report.warnings.push_back(sentence);
+      report.warnings.push_back(message);
   };
   warn_where(
       [](const ValidationScore& score) {
         return score.side.predicted < score.side.base;
       },
-      "Near the surface, the class of samples that were left out is told no better by "
-      "the surface than by always saying the same: it does not follow the field.");
+      {"surface_tells_nothing", {}});
   warn_where(
       [](const ValidationScore& score) {
         return score.side.nearest - score.side.predicted > score.side_error;
       },
-      lie_all_around
-          ? "Near the surface, the nearest sample tells the class of samples that were "
-            "left out better than the surface does: the field changes too fast for "
-            "these samples there, or their values are noisy or outliers."
-          : "Near the surface, the nearest sample tells the class of samples that were "
-            "left out better than the surface does: trust where it crosses lines of "
-            "samples, not what lies between." +
-                adviseRemedies(parameters));
+      lie_all_around ? Message("samples_tell_better", {})
+                     : Message("lines_tell_better", listRemedies(parameters)));
   warn_where(
       [](const ValidationScore& score) {
         return score.beyond_error >= least_beyond_error &&
                score.side_beyond_error < trusted_side;
       },
-      "Of the samples that were left out farther from the surface than its estimated "
-      "error many lie on the wrong side: the errors are too small there, or the "
-      "samples "
-      "are noisy.");
+      {"small_errors", {}});
 }
 
 Folds

@@ -6,8 +6,7 @@
 #include "pipeline/periodic_surface.h"
 
 #include <cstdint>
-#include <sstream>
-#include <string>
+#include <utility>
 #include <vector>
 
 namespace pcl_uvol {
@@ -25,16 +24,8 @@ warnOfSpikes(const IsosurfacePipelineParameters& parameters, Report& report)
 {
   const auto spikes = static_cast<double>(report.getCount("spikes")),
              crossing = static_cast<double>(report.getCount("crossing_samples"));
-  if (parameters.smooth || spikes <= told_spikes * crossing)
-    return;
-  std::ostringstream text;
-  text.precision(2);
-  text << "Of the samples next to the surface " << 100.0 * spikes / crossing
-       << " % have values far from those of all samples around them, which agree with "
-          "one another: the isopoints around each of them show an outlier and no "
-          "surface. -smooth takes the median of the neighbours instead, and -where "
-          "leaves out values that cannot be.";
-  report.warnings.push_back(text.str());
+  if (!parameters.smooth && spikes > told_spikes * crossing)
+    report.warn("spikes", {{"percent", 100.0 * spikes / crossing}});
 }
 
 /** Part of the isopoints: by chance 8 samples are on one side at 2 * 0.5^8 of all
@@ -49,13 +40,8 @@ warnOfContradicted(std::uint64_t isopoints, Report& report)
   const std::uint64_t removed = report.getCount("contradicted");
   const std::uint64_t all = isopoints + removed + report.getCount("removed_by_error") +
                             report.getCount("removed_bridged");
-  if (static_cast<double>(removed) <= by_chance * static_cast<double>(all))
-    return;
-  report.warnings.push_back("Samples contradict " + std::to_string(removed) + " of " +
-                            std::to_string(all) +
-                            " isopoints, which were removed: the 8 nearest samples are "
-                            "all on one side of the "
-                            "isovalue. Try: -interpolation fit keeps them.");
+  if (static_cast<double>(removed) > by_chance * static_cast<double>(all))
+    report.warn("contradicted_isopoints", {{"removed", removed}, {"isopoints", all}});
 }
 
 /** Part of the isopoints: where fewer are left, a surface has become a few specks. */
@@ -68,24 +54,13 @@ warnOfLittleLeft(std::uint64_t isopoints, Report& report)
   const std::uint64_t by_error = report.getCount("removed_by_error"),
                       bridged = report.getCount("removed_bridged");
   const std::uint64_t removed = by_error + bridged;
-  if (removed == 0 || static_cast<double>(isopoints) >=
-                          little * static_cast<double>(isopoints + removed))
-    return;
-  const std::string options = by_error == 0  ? "-drop-bridged"
-                              : bridged == 0 ? "-max-error"
-                                             : "-max-error and -drop-bridged";
-  if (isopoints > 0) {
-    report.warnings.push_back(
-        "Of " + std::to_string(isopoints + removed) + " isopoints " +
-        std::to_string(isopoints) + " are left by " + options +
-        ": of the rest of the surface the samples do not tell that well.");
-    return;
-  }
-  report.warnings.push_back(
-      (removed == 1
-           ? "The last isopoint was left out by "
-           : "The last " + std::to_string(removed) + " isopoints were left out by ") +
-      options + ": the samples tell of no part of the surface that well.");
+  if (removed > 0 && static_cast<double>(isopoints) <
+                         little * static_cast<double>(isopoints + removed))
+    report.warn(isopoints > 0 ? "few_isopoints_left" : "no_isopoints_left",
+                {{"isopoints", isopoints + removed},
+                 {"left", isopoints},
+                 {"by_error", by_error > 0},
+                 {"by_support", bridged > 0}});
 }
 
 } // namespace
@@ -131,16 +106,14 @@ warnOfGuesses(const SurfaceGrounds& grounds,
               const std::optional<SamplingSummary>& sampling,
               Report& report)
 {
-  const std::string test = parameters.validation.folds > 0
-                               ? ""
-                               : " A hold-out test tells how good it is (-validate).";
-  for (const std::string& warning :
-       {role == SurfaceRole::ClusterBorder
-            ? tellGuessedBorder(grounds)
-            : tellGuesses(grounds, sampling, test + adviseRemedies(parameters)),
-        tellThinParts(grounds)})
-    if (!warning.empty())
-      report.warnings.push_back(warning);
+  Message guess("guessed_isopoints", listRemedies(parameters));
+  guess.values.emplace_back("validate", parameters.validation.folds == 0);
+  if (const auto told = role == SurfaceRole::ClusterBorder
+                            ? tellGuessedBorder(grounds)
+                            : tellGuesses(grounds, sampling, std::move(guess)))
+    report.warnings.push_back(*told);
+  if (4 * grounds.thin > grounds.known)
+    report.warn("thin_parts", {{"percent", 100 * grounds.thin / grounds.known}});
 }
 
 void

@@ -130,9 +130,7 @@ keepIsovalues(const pcl::PointCloud<PointIso>& isopoints,
   std::map<float, double> by_rounded;
   for (const double isovalue : isovalues)
     if (!by_rounded.emplace(static_cast<float>(isovalue), isovalue).second)
-      report.warnings.push_back(
-          "Isovalues that are equal in float cannot be told apart by the field "
-          "isovalue: extract them one at a time.");
+      report.warn("equal_isovalues");
   std::vector<double> values;
   for (const PointIso& point : isopoints)
     values.push_back(by_rounded.at(point.isovalue));
@@ -457,6 +455,14 @@ mergeLater(Report& report, Report stage)
   stage.counts.erase(
       std::remove_if(stage.counts.begin(), stage.counts.end(), is_of_samples),
       stage.counts.end());
+  stage.warnings.erase(std::remove_if(stage.warnings.begin(),
+                                      stage.warnings.end(),
+                                      [&](const Message& warning) {
+                                        return std::count(report.warnings.begin(),
+                                                          report.warnings.end(),
+                                                          warning) > 0;
+                                      }),
+                       stage.warnings.end());
   report.merge(stage);
 }
 

@@ -384,12 +384,8 @@ weldMesh(const std::vector<OppositeFaces>& cut, IsosurfaceResult& result)
   JoinedMesh joined = joinImages(image_of, result.triangles).value_or(apart);
   const std::size_t left = countOpenEdges(cut, result, joined);
   if (left > 0)
-    result.report.warnings.push_back(
-        std::to_string(left) + " of " +
-        std::to_string(countOpenEdges(cut, result, apart)) +
-        " edges in the faces of the box have no image in the opposite face, so that "
-        "the mesh is not closed across it: the surface is tangent to the face there, "
-        "or the samples are too sparse or noisy.");
+    result.report.warn("edges_without_image",
+                       {{"left", left}, {"edges", countOpenEdges(cut, result, apart)}});
   setField(result.surface, "image_of", image_of);
   return joined;
 }

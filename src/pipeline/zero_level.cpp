@@ -59,7 +59,8 @@ forgetIfVanished(const pcl::PointCloud<PointIso>& isopoints,
                  Report& report)
 {
   if (isopoints.empty())
-    report.warnings.resize(told);
+    report.warnings.erase(report.warnings.begin() + static_cast<std::ptrdiff_t>(told),
+                          report.warnings.end());
 }
 
 } // namespace

@@ -257,10 +257,9 @@ warnOfLogarithms(const CloudView& cloud,
   for (std::size_t i = 0; i < cloud.count; ++i)
     count += scalar.read(cloud.point(i)) <= 0.0 ? 1 : 0;
   if (count > 0)
-    report.warnings.push_back(
-        "The values of " + quoteText(field) + " are not above 0 at " +
-        std::to_string(count) + " of " + std::to_string(cloud.count) +
-        " points, where they have no logarithm: these points are grey.");
+    report.warn(
+        "no_logarithms",
+        {{"field", shortenText(field)}, {"grey", count}, {"points", cloud.count}});
 }
 
 PointColors

@@ -191,8 +191,7 @@ orientPoints(const CloudView& cloud,
   points.two_sided = normals.use.empty();
   if (points.two_sided) {
     normals = estimateNormals(cloud, finite, threads, report);
-    report.warnings.push_back("The cloud has no normals: they were estimated, and the "
-                              "surface is drawn from both sides.");
+    report.warn("estimated_normals");
   }
   report.count("without_normal", finite.size() - normals.use.size());
   if (normals.use.empty())

@@ -17,7 +17,6 @@
 #include <limits>
 #include <numeric>
 #include <optional>
-#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -200,12 +199,8 @@ warnOfBadSplats(std::size_t count, const Splats& splats, Report& report)
   if (bad == 0)
     return;
   report.setCount("bad_splats", bad);
-  std::ostringstream warning;
-  warning << bad << " of " << count
-          << " splats are left out: they are not finite, have no normal, tangent or "
-             "radius, or are larger or farther away than "
-          << most_splat_reach << '.';
-  report.warnings.push_back(warning.str());
+  report.warn("bad_splats",
+              {{"bad", bad}, {"splats", count}, {"reach", most_splat_reach}});
 }
 
 bool
@@ -281,8 +276,7 @@ findSplats(const CloudView& cloud,
   if (!hasSplats(cloud))
     return takeDrawable(coverForPicture(cloud, parameters, threads, report), report);
   if (is_asked_for)
-    report.warnings.push_back("It holds splats, which are drawn as they are: "
-                              "delta and lambda are not used.");
+    report.warn("ready_splats");
   return readForPicture(cloud, threads, report);
 }
 

@@ -79,10 +79,7 @@ chooseDistance(const std::vector<Position>& positions,
   const double longest = longestSpanningEdge(positions, threads, report);
   if (parameters.distance > 0.0) {
     if (parameters.distance < 0.5 * longest)
-      report.warnings.push_back(
-          "The longest edge of the cluster's spanning tree is " +
-          std::to_string(longest) +
-          ": at less than half of it the surface falls into pieces.");
+      report.warn("short_distance", {{"edge", std::to_string(longest)}});
     return parameters.distance;
   }
   if (longest == 0.0)
@@ -196,14 +193,13 @@ warnOfSharedCells(const Members& members,
   const bool is_distance = kind == ClusterSurfaceKind::Distance;
   if (is_distance && !outlier)
     return;
-  report.warnings.push_back(
-      "The " + std::to_string(members.positions.size()) +
-      " points of the cluster lie in " + std::to_string(filled_cells) +
-      " cells of the grid, and the " +
-      (is_distance ? "surface is at a distance from these"
-                   : "hull goes through one of each") +
-      ": a finer grid helps, or to leave out points that lie far from the others" +
-      (outlier ? " (" + describe(*outlier) + ")." : "."));
+  report.warn("shared_cells",
+              {{"points", members.positions.size()},
+               {"cells", filled_cells},
+               {"is_distance", is_distance},
+               {"has_outlier", outlier.has_value()},
+               {"point", outlier ? outlier->point : 0},
+               {"ratio", outlier ? std::nearbyint(outlier->ratio) : 0.0}});
 }
 
 /** Turns a surface at a distance into the hull. */

@@ -4,6 +4,7 @@
 #include "common/coordinate_range.h"
 #include "common/value_frame.h"
 #include "support/environment.h"
+#include "support/messages.h"
 #include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/exceptions.h>
 
@@ -11,8 +12,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
+#include <optional>
 
 namespace test_coordinate_range {
 
@@ -42,7 +43,7 @@ findRange(const Points& points)
   return range;
 }
 
-std::string
+std::optional<pcl_uvol::Message>
 noteOf(const Points& points)
 {
   const CoordinateRange range = findRange(points);
@@ -55,7 +56,7 @@ TEST(CoordinateRange, RowsWithoutPositionMoveNoOrigin)
   const Point origin = findRange(points).findOrigin();
   EXPECT_NEAR(391500.0, origin[0], 500.0);
   EXPECT_NEAR(5819500.0, origin[1], 500.0);
-  EXPECT_EQ("", noteOf(points));
+  EXPECT_FALSE(noteOf(points));
   // One in ten, and one that is far off in another way.
   for (std::size_t i = 0; i < points.size(); i += 10)
     points[i] = {0.0, 0.0, 0.0};
@@ -66,8 +67,9 @@ TEST(CoordinateRange, RowsWithoutPositionMoveNoOrigin)
     const double step = std::exp2(std::floor(std::log2(500.0)));
     EXPECT_EQ(0.0, std::fmod(robust[axis], step));
   }
-  EXPECT_NE(std::string::npos,
-            noteOf(points).find("single points far from the others"));
+  const auto note = noteOf(points);
+  ASSERT_TRUE(note);
+  EXPECT_EQ("rounded_far_points", note->code);
 }
 
 TEST(CoordinateRange, OneRowWithoutPositionCostsNoDigits)
@@ -95,7 +97,7 @@ TEST(CoordinateRange, AnyOrderAndDivisionGiveOneOrigin)
   Points points = makeSite(20000);
   points[9] = {0.0, 0.0, 0.0};
   const Point expected = findRange(points).findOrigin();
-  const std::string note = noteOf(points);
+  const auto note = noteOf(points);
   CoordinateRange parts[3];
   std::reverse(points.begin(), points.end());
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -112,16 +114,11 @@ TEST(CoordinateRange, ClustersFarApartAreTold)
   const Points others = makeSite(20000, {1e10, 0.0, 0.0});
   points.insert(points.end(), others.begin(), others.end());
   // The nearest of 40,000 points is some 10 m away; floats of 1e10 are 1024 m apart.
-  const std::string note = noteOf(points);
-  EXPECT_EQ(0u, note.find("Coordinates are rounded to float by up to ")) << note;
-  double rounding = 0.0, spacings = 0.0;
-  ASSERT_EQ(2,
-            std::sscanf(note.c_str(),
-                        "Coordinates are rounded to float by up to %lf, %lf times",
-                        &rounding,
-                        &spacings))
-      << note;
-  EXPECT_NEAR(512.0, rounding, 16.0);
+  const auto note = noteOf(points);
+  ASSERT_TRUE(note);
+  EXPECT_EQ("rounded_coordinates", note->code);
+  const double spacings = uvol_test::numberOf(*note, "spacings");
+  EXPECT_NEAR(512.0, uvol_test::numberOf(*note, "rounding"), 16.0);
   EXPECT_GT(spacings, 30.0);
   EXPECT_LT(spacings, 80.0);
 }
@@ -136,11 +133,10 @@ TEST(CoordinateRange, SpacingsOnALineAreThoseOfALine)
         {1e5 * random.uniform(), 1e5 * random.uniform(), 1e5 * random.uniform()});
   }
   // Neighbours of random points on a line are half a mean spacing of 1 apart, or less.
-  const std::string note = noteOf(line);
-  const auto at = note.find("(about ");
-  ASSERT_NE(std::string::npos, at) << note;
-  EXPECT_NEAR(0.35, std::stod(note.substr(at + 7)), 0.15);
-  EXPECT_EQ("", noteOf(volume));
+  const auto note = noteOf(line);
+  ASSERT_TRUE(note);
+  EXPECT_NEAR(0.35, uvol_test::numberOf(*note, "spacing"), 0.15);
+  EXPECT_FALSE(noteOf(volume));
 }
 
 TEST(CoordinateRange, WhatFloatCannotHoldIsRefusedUnlessItIsAStray)

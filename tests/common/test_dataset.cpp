@@ -65,8 +65,9 @@ TEST(Records, BecomeClouds)
   EXPECT_EQ(describeFields(dataset.cloud.fields),
             "x (float32), y (float32), z (float32), a (int16), a_2 (float64)");
   EXPECT_EQ(viewOf(dataset.cloud).xyz(1)[2], 7.0f);
-  EXPECT_EQ(dataset.notes,
-            std::vector<std::string>{"A further field 'a' is called 'a_2'."});
+  EXPECT_EQ(
+      dataset.notes,
+      (std::vector<Message>{{"repeated_field", {{"field", "a"}, {"name", "a_2"}}}}));
 }
 
 TEST(Records, BadOnes)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Positions that fall together in float are told, equal ones are not.
 #include "src/common/merged_positions.h"
+#include "support/messages.h"
 
 #include <gtest/gtest.h>
 
@@ -91,15 +92,17 @@ TEST(MergedPositions, AreNotThoseThatAreEqualAnywayNorWhatIsNoPosition)
                                   {-0.0, 0, 0},
                                   {0, 0, 0}};
   EXPECT_EQ(0u, find(points).count);
-  EXPECT_EQ("", describe(find(points)));
+  EXPECT_FALSE(describe(find(points)));
   EXPECT_EQ(0u, find({}).count);
 }
 
 TEST(MergedPositions, AreDescribedByNumberAndDistance)
 {
-  const std::string text = describe(find({{1.0, 0.0, 0.0}, {1.0 + 1e-9, 0.0, 0.0}}));
-  EXPECT_EQ(0u, text.find("1 position falls together with others")) << text;
-  EXPECT_NE(std::string::npos, text.find("up to 1e-09 apart")) << text;
+  const auto message = describe(find({{1.0, 0.0, 0.0}, {1.0 + 1e-9, 0.0, 0.0}}));
+  ASSERT_TRUE(message);
+  EXPECT_EQ("merged_positions", message->code);
+  EXPECT_EQ(1.0, uvol_test::numberOf(*message, "positions"));
+  EXPECT_NEAR(1e-9, uvol_test::numberOf(*message, "distance"), 1e-15);
 }
 
 } // namespace test_merged_positions

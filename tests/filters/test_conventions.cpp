@@ -352,6 +352,21 @@ TEST(VtkIsosurface, AnIsovalueOutsideTheValuesWarns)
   EXPECT_NE(filter->GetOutput()->GetPointData()->GetArray("density"), nullptr);
 }
 
+TEST(VtkIsosurface, WarningsNameProperties)
+{
+  vtkNew<vtkUvolIsosurface> filter;
+  const Listener listener(*filter);
+  filter->SetInputData(makeSamples());
+  filter->SetValue(0, 5.0);
+  filter->SetMaximumError(1e-12);
+  filter->Update();
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
+  EXPECT_EQ(listener.errors.size(), 0u);
+  ASSERT_EQ(listener.warnings.size(), 1u);
+  EXPECT_NE(listener.warnings[0].find("left out by MaximumError: "), std::string::npos)
+      << listener.warnings[0];
+}
+
 TEST(VtkIsosurface, FurtherIsovaluesAreThoseOfANewFilter)
 {
   const auto samples = makeSamples();

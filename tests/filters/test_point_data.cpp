@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // VTK data become clouds and clouds VTK data: every array comes back as it was.
 #include "io/random_dataset.h"
+#include "support/messages.h"
 #include "vtk_setup.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/filters/point_data.h>
@@ -65,7 +66,7 @@ TEST(PointData, EveryTypeOfNumberComesBack)
     arrays.push_back(array);
   }
   const Dataset cloud = toPointCloud(data);
-  EXPECT_EQ(cloud.notes, std::vector<std::string>());
+  EXPECT_EQ(cloud.notes, std::vector<Message>());
   const auto back = fromPointCloud(cloud);
   ASSERT_EQ(back->GetPointData()->GetNumberOfArrays(), static_cast<int>(arrays.size()));
   for (const auto& array : arrays) {
@@ -150,7 +151,10 @@ TEST(PointData, NamesThatCoordinatesHave)
       describeFields(cloud.cloud.fields),
       "x (float32), y (float32), z (float32), x_2 (int32), a (int32), a b (int32), "
       "__2 (int32), array_4 (int32)");
-  EXPECT_EQ(cloud.notes.size(), 2u);
+  EXPECT_EQ(
+      cloud.notes,
+      (std::vector<Message>{{"renamed_array", {{"array", "x"}, {"name", "x_2"}}},
+                            {"renamed_array", {{"array", "_"}, {"name", "__2"}}}}));
   EXPECT_EQ(valueOf(cloud, "x", 1), 1.0);
   EXPECT_EQ(valueOf(cloud, "x_2", 1), 8.0);
 }
@@ -164,10 +168,12 @@ TEST(PointData, WhatNoCloudHoldsIsNoted)
   data->GetPointData()->AddArray(shorter);
   const Dataset cloud = toPointCloud(data);
   ASSERT_EQ(cloud.notes.size(), 2u);
-  EXPECT_NE(cloud.notes[0].find("'shorter' has 2 tuples for 3 points"),
-            std::string::npos);
-  EXPECT_NE(cloud.notes[1].find("'name'"), std::string::npos);
-  EXPECT_NE(cloud.notes[1].find("vtkStringArray"), std::string::npos);
+  EXPECT_EQ(
+      cloud.notes[0],
+      Message("unfitting_array", {{"array", "shorter"}, {"tuples", 2}, {"points", 3}}));
+  EXPECT_EQ(cloud.notes[1].code, "array_of_texts");
+  EXPECT_EQ(wordOf(cloud.notes[1], "array"), "name");
+  EXPECT_EQ(wordOf(cloud.notes[1], "type"), "vtkStringArray");
   EXPECT_EQ(findField(cloud.cloud.fields, "name"), nullptr);
 }
 

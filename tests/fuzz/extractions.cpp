@@ -97,8 +97,7 @@ extract(const Cloud::ConstPtr& cloud,
       for (std::size_t axis = 0; axis < 3; ++axis)
         require(std::isfinite(coordinateOf(result.surface.cloud, i, axis)),
                 "positions are finite");
-    for (const std::string& warning : result.report.warnings)
-      requireSentence(warning);
+    requireSentences(result.report.warnings);
     promises(result);
   });
 }

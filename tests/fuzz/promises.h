@@ -6,6 +6,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace uvol_fuzz {
 
@@ -28,6 +29,17 @@ require(bool holds, const std::string& promise)
  * length */
 void
 requireSentence(std::string message, const std::string& path = {});
+
+/** \brief So is every warning, however it names parameters. */
+inline void
+requireSentences(const std::vector<pcl_uvol::Message>& warnings)
+{
+  for (const pcl_uvol::Message& warning : warnings)
+    for (const auto names : {pcl_uvol::ParameterNames::Members,
+                             pcl_uvol::ParameterNames::Options,
+                             pcl_uvol::ParameterNames::Properties})
+      requireSentence(warning.text(names));
+}
 
 /** \brief Runs what may refuse its input, but only by this exception and with one
  * sentence.

@@ -127,8 +127,7 @@ measureSurface(const std::uint8_t* bytes, std::size_t size)
               "it is one of the pieces");
     if (has_triangles)
       requireFigures(figures, mesh);
-    for (const std::string& warning : measures.getReport().warnings)
-      requireSentence(warning);
+    requireSentences(measures.getReport().warnings);
   });
 }
 

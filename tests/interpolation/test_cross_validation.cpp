@@ -2,6 +2,7 @@
 // Folds, and what leaving them out tells of a model.
 #include "common/scalar_field.h"
 #include "support/interpolation_cases.h"
+#include "support/messages.h"
 #include <pcl_uvol/interpolation/cross_validation.h>
 
 #include <gtest/gtest.h>
@@ -115,8 +116,9 @@ TEST(CrossValidation, WarnsWhereNoHeldOutSampleHasAValue)
         crossValidate(view, allOf(cloud), parameters, folds, 0, 0, report);
     EXPECT_EQ(160u, scores[0].tested);
     const bool is_told = std::any_of(
-        report.warnings.begin(), report.warnings.end(), [](const std::string& warning) {
-          return warning.find("None of the 160 held-out samples has a value") == 0;
+        report.warnings.begin(), report.warnings.end(), [](const Message& warning) {
+          return warning.code == "nothing_covered" &&
+                 numberOf(warning, "tested") == 160.0;
         });
     EXPECT_EQ(scores[0].covered == 0, is_told);
     EXPECT_EQ(scores[0].covered == 0, std::isnan(scores[0].rms));

@@ -3,6 +3,7 @@
 #include "common/random.h"
 #include "interpolation/answer_summary.h"
 #include "support/interpolation_cases.h"
+#include "support/messages.h"
 #include <pcl_uvol/interpolation/cross_validation.h>
 #include <pcl_uvol/interpolation/field_interpolation.h>
 
@@ -150,7 +151,8 @@ TEST(ModelChoice, AFewSamplesAreNoChoice)
   const auto choice = chooseModel(viewOf(cloud), allOf(cloud), {}, 0, report);
   EXPECT_EQ(choice.scores.front().model, InterpolationModel::Fit);
   EXPECT_EQ(choice.tested, 0u);
-  EXPECT_EQ(report.warnings.size(), 1u);
+  EXPECT_EQ(listCodes(report.warnings),
+            std::vector<std::string>{"few_samples_for_choice"});
 }
 
 TEST(ModelChoice, TheAutomaticModelIsTheOneChosen)
@@ -177,8 +179,8 @@ answersOf(const std::vector<double>& values, const std::vector<double>& errors)
   return answers;
 }
 
-/** The sentences about answers to 10 queries. */
-std::vector<std::string>
+/** The warnings about answers to 10 queries. */
+std::vector<Message>
 warningsOf(const InterpolatedFields& answers,
            const std::vector<std::pair<std::string, std::uint64_t>>& counts)
 {
@@ -201,24 +203,28 @@ TEST(AnswerSummary, WarnsOnceWhereMostIsUncertain)
   EXPECT_TRUE(warningsOf(answersOf(fine, small), {{"measured", 10}}).empty());
   EXPECT_TRUE(warningsOf(answersOf(fine, small), {{"rim", 5}}).empty());
   EXPECT_TRUE(warningsOf(answersOf(fine, none), {{"measured", 10}}).empty());
-  const auto expectOne = [](const std::vector<std::string>& warnings,
-                            const std::string& text) {
+  const auto expectOne = [](const std::vector<Message>& warnings,
+                            const Message& expected) {
     ASSERT_EQ(warnings.size(), 1u);
-    EXPECT_NE(warnings[0].find(text), std::string::npos) << warnings[0];
+    EXPECT_EQ(warnings[0], expected);
   };
-  expectOne(warningsOf(answersOf(none, none), {{"outside", 6}}), "no value (NaN)");
-  expectOne(warningsOf(answersOf(fine, small), {{"outside", 6}}), "rest on no samples");
-  expectOne(warningsOf(answersOf(none, none), {{"invalid", 6}}), "finite coordinates");
+  expectOne(warningsOf(answersOf(none, none), {{"outside", 6}}),
+            {"queries_outside", {{"outside", 6}, {"queries", 10}, {"has_values", 0}}});
+  expectOne(warningsOf(answersOf(fine, small), {{"outside", 6}}),
+            {"queries_outside", {{"outside", 6}, {"queries", 10}, {"has_values", 1}}});
+  expectOne(warningsOf(answersOf(none, none), {{"invalid", 6}}),
+            {"invalid_queries", {{"invalid", 6}, {"queries", 10}}});
   expectOne(
       warningsOf(answersOf(fine, small), {{"rim", 2}, {"bridged", 2}, {"reduced", 2}}),
-      "6 of the 10 queries lie in gaps");
+      {"weak_support", {{"weak", 6}, {"queries", 10}}});
   expectOne(warningsOf(answersOf(fine, std::vector<double>(10, 0.51)), {}),
-            "10 of the 10 values of f0 have a standard error");
+            {"unsure_values", {{"unsure", 10}, {"values", 10}, {"field", "f0"}}});
   std::vector<double> wild = fine;
   wild[3] = 2.01;
   wild[4] = -1.01;
   wild[5] = 1.99;
-  expectOne(warningsOf(answersOf(wild, small), {}), "2 of the 10 values of f0 lie");
+  expectOne(warningsOf(answersOf(wild, small), {}),
+            {"overshoots", {{"wild", 2}, {"values", 10}, {"field", "f0"}}});
 }
 
 TEST(AnswerSummary, TellsTheRangeOfAllBlocks)

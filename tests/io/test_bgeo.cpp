@@ -207,8 +207,8 @@ TEST_F(Bgeo, SystemsOfParticlesArePassedOver)
   const Dataset points = loadDataset(save(particles(counts, behind)));
   EXPECT_EQ(3u, points.cloud.width);
   ASSERT_EQ(2u, points.notes.size());
-  EXPECT_EQ("2 attributes of the whole file are left out.", points.notes[0]);
-  EXPECT_EQ("1 groups of points are left out.", points.notes[1]);
+  EXPECT_EQ(Message("file_attributes", {{"attributes", 2}}), points.notes[0]);
+  EXPECT_EQ(Message("point_groups", {{"groups", 1}}), points.notes[1]);
 }
 
 /** Points of large files are numbered by four bytes. */

@@ -152,10 +152,13 @@ TEST(CoordinateColumns, OfUnknownUnitsBringANote)
 {
   const Dataset dataset = load("x_kpch,y_kpch,z_kpch,rho");
   ASSERT_EQ(1u, dataset.notes.size());
+  EXPECT_EQ(
+      Message("common_ending", {{"x", "x_kpch"}, {"y", "y_kpch"}, {"z", "z_kpch"}}),
+      dataset.notes[0]);
   EXPECT_EQ("The columns x_kpch, y_kpch and z_kpch are taken as the coordinates, "
             "because their names share an ending. Try: -xyz if other columns are the "
             "coordinates.",
-            dataset.notes[0]);
+            dataset.notes[0].text(ParameterNames::Options));
   LoadOptions options;
   options.may_mix_units = true;
   EXPECT_EQ(1u, load("x_kpch,y_kpch,z_kpch,rho", options).notes.size());
@@ -172,7 +175,7 @@ TEST(CoordinateColumns, LettersOfMapsCountTogether)
     const Dataset dataset = load(line);
     EXPECT_EQ(1.5, valueOf(dataset, "x", 0)) << line;
     ASSERT_EQ(1u, dataset.notes.size()) << line;
-    EXPECT_NE(std::string::npos, dataset.notes[0].find("names no x, y, z")) << line;
+    EXPECT_EQ("guessed_coordinates", dataset.notes[0].code) << line;
   }
   const std::string error = messageOf<IOError>([&] { load("n,e,grade"); });
   EXPECT_NE(std::string::npos, error.find("only some")) << error;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Files that list others, and those that VTK's own readers take.
+#include "common/printable.h"
 #include "random_dataset.h"
+#include "support/messages.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>
@@ -55,7 +57,7 @@ TEST_F(FileLists, JoinTheirFiles)
     const Dataset both = loadDataset(path);
     ASSERT_EQ(11u, both.cloud.width);
     ASSERT_EQ(1u, both.notes.size());
-    EXPECT_NE(std::string::npos, both.notes[0].find("'extra' is left out"));
+    EXPECT_EQ(Message("field_of_some_parts", {{"field", "extra"}}), both.notes[0]);
     for (std::size_t i = 0; i < 11; ++i) {
       const Dataset& from = parts_[i < 5 ? 0 : 1];
       const std::size_t row = i < 5 ? i : i - 5;
@@ -80,7 +82,8 @@ TEST_F(FileLists, OfSeveralTimesTheFirstIsRead)
            "<DataSet timestep=\"1.5\" file=\"parts/1.vtp\"/></Collection>"));
   EXPECT_EQ(12u, first.cloud.width);
   ASSERT_FALSE(first.notes.empty());
-  EXPECT_NE(std::string::npos, first.notes[0].find("0.5, is read"));
+  EXPECT_EQ("first_listed_time", first.notes[0].code);
+  EXPECT_EQ("0.5", wordOf(first.notes[0], "time"));
 }
 
 TEST_F(FileLists, ReadAFileOnce)
@@ -93,9 +96,9 @@ TEST_F(FileLists, ReadAFileOnce)
   EXPECT_NE(once.notes.end(),
             std::find(once.notes.begin(),
                       once.notes.end(),
-                      "The list '" + folder_.operator/("many.pvd") +
-                          "' names files again 9999 times: each of them is read "
-                          "once."));
+                      Message("repeated_files",
+                              {{"list", shortenText(folder_ / "many.pvd")},
+                               {"times", 9999}})));
 }
 
 TEST_F(FileLists, SayWhatIsWrong)

@@ -3,6 +3,7 @@
 #include "io/formats.h"
 #include "io/point_stream.h"
 #include "support/environment.h"
+#include "support/messages.h"
 #include "tools/tool_test.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset.h>
@@ -18,6 +19,8 @@ namespace test_mapped_tables {
 
 using namespace pcl_uvol;
 using uvol_test::fieldOf;
+using uvol_test::numberOf;
+using uvol_test::wordOf;
 
 class MappedTables : public uvol_test::FolderTest {
 protected:
@@ -47,7 +50,16 @@ TEST_F(MappedTables, KeepDegreesWithoutAMap)
   EXPECT_EQ((std::vector<double>{179.0, -179.0, 180.0}), fieldOf(points, "x"));
   EXPECT_EQ((std::vector<double>{10.0, 20.0, 30.0}), fieldOf(points, "z"));
   ASSERT_EQ(1u, points.notes.size());
-  EXPECT_NE(std::string::npos, points.notes[0].find("-map auto"));
+  EXPECT_EQ(Message("mixed_units",
+                    {{"x", "lon_deg"},
+                     {"y", "lat"},
+                     {"z", "depth_m"},
+                     {"are_degrees", 1},
+                     {"can_be_mapped", 1}}),
+            points.notes[0]);
+  EXPECT_NE(std::string::npos,
+            points.notes[0].text(ParameterNames::Options).find("-map auto"));
+  EXPECT_NE(std::string::npos, points.notes[0].text().find("map=auto"));
 }
 
 TEST_F(MappedTables, AreMappedAroundTheirMedian)
@@ -67,9 +79,13 @@ TEST_F(MappedTables, AreMappedAroundTheirMedian)
   for (const char* const name : {"lat", "lon_deg", "depth_m", "T"})
     EXPECT_NO_THROW(fieldOf(points, name)) << name;
   ASSERT_EQ(1u, points.notes.size());
-  EXPECT_NE(
-      std::string::npos,
-      points.notes[0].find("mapped around 180 E, 42.5 S: x and y are kilometres"));
+  EXPECT_EQ(Message("mapped_positions",
+                    {{"longitude", "180 E"},
+                     {"latitude", "42.5 S"},
+                     {"in_metres", 0},
+                     {"tells_z", 0},
+                     {"z", ""}}),
+            points.notes[0]);
 }
 
 TEST_F(MappedTables, AreMappedAroundAGivenOrigin)
@@ -149,12 +165,17 @@ TEST_F(MappedTables, FewFixesAtZeroDoNotMoveTheOrigin)
     EXPECT_NEAR(without->latitude, map->latitude, 0.02) << lost;
     EXPECT_EQ(1.0, map->per_kilometre);
     ASSERT_EQ(2u, points.notes.size()) << lost;
-    EXPECT_EQ(0u,
-              points.notes[1].find(std::to_string(lost) + " of " +
-                                   std::to_string(2000 + lost) + " positions"))
-        << points.notes[1];
-    EXPECT_NE(std::string::npos, points.notes[1].find("at 0 E, 0 N, 47"));
-    EXPECT_NE(std::string::npos, points.notes[1].find("-where \"lat != 0\""));
+    const Message& note = points.notes[1];
+    EXPECT_EQ("far_positions", note.code);
+    EXPECT_EQ(static_cast<double>(lost), numberOf(note, "far"));
+    EXPECT_EQ(static_cast<double>(2000 + lost), numberOf(note, "positions"));
+    EXPECT_EQ("0 E", wordOf(note, "longitude"));
+    EXPECT_EQ("0 N", wordOf(note, "latitude"));
+    EXPECT_NEAR(4750.0, numberOf(note, "distance"), 50.0);
+    EXPECT_EQ("lat", wordOf(note, "field"));
+    EXPECT_EQ(0.0, numberOf(note, "degrees"));
+    EXPECT_NE(std::string::npos,
+              note.text(ParameterNames::Options).find("-where \"lat != 0\""));
   }
 }
 

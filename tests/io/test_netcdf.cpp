@@ -3,6 +3,7 @@
 #include "common/records.h"
 #include "common/scalar_field.h"
 #include "random_dataset.h"
+#include "support/messages.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/map_projection.h>
 #include <pcl_uvol/expressions/derived_fields.h>
@@ -19,6 +20,8 @@
 namespace test_netcdf {
 
 using namespace pcl_uvol;
+using uvol_test::numberOf;
+using uvol_test::wordOf;
 
 constexpr double degree = 6371.0088 * 3.14159265358979323846 / 180.0;
 
@@ -187,9 +190,12 @@ TEST_P(Netcdf, ReadsProfiles)
   for (const char* const absent : {"PLATFORM_NUMBER", "DIRECTION"})
     EXPECT_EQ(nullptr, findField(dataset.cloud.fields, absent));
   ASSERT_EQ(1u, dataset.notes.size());
-  EXPECT_NE(std::string::npos, dataset.notes[0].find("180 "));
-  EXPECT_NE(std::string::npos, dataset.notes[0].find("41 N: x and y are kilometres"));
-  EXPECT_NE(std::string::npos, dataset.notes[0].find("z is minus PRES in decibar"));
+  EXPECT_EQ("mapped_positions", dataset.notes[0].code);
+  EXPECT_EQ(0u, wordOf(dataset.notes[0], "longitude").find("180 "));
+  EXPECT_EQ("41 N", wordOf(dataset.notes[0], "latitude"));
+  EXPECT_EQ(0.0, numberOf(dataset.notes[0], "in_metres"));
+  EXPECT_EQ(1.0, numberOf(dataset.notes[0], "tells_z"));
+  EXPECT_EQ("minus PRES in decibar", wordOf(dataset.notes[0], "z"));
   pcl_uvol::Report report;
   EXPECT_EQ(3u, selectRows(dataset, "TEMP_QC=1", {}, report));
   expectNear({20.0, 19.0, 16.0}, valuesOf(dataset, "TEMP"));
@@ -386,8 +392,14 @@ TEST_P(Netcdf, NamesFixesFarFromTheOthers)
   EXPECT_NEAR(-42.59, findMap(dataset)->latitude, 0.03);
   EXPECT_NEAR(8.41, findMap(dataset)->longitude, 0.03);
   ASSERT_EQ(2u, dataset.notes.size());
-  EXPECT_EQ(0u, dataset.notes[1].find("2 of 40 positions are far from all others"));
-  EXPECT_NE(std::string::npos, dataset.notes[1].find("-where \"latitude != 0\""));
+  EXPECT_EQ("far_positions", dataset.notes[1].code);
+  EXPECT_EQ(2.0, numberOf(dataset.notes[1], "far"));
+  EXPECT_EQ(40.0, numberOf(dataset.notes[1], "positions"));
+  EXPECT_EQ("latitude", wordOf(dataset.notes[1], "field"));
+  EXPECT_EQ(0.0, numberOf(dataset.notes[1], "degrees"));
+  EXPECT_NE(
+      std::string::npos,
+      dataset.notes[1].text(ParameterNames::Options).find("-where \"latitude != 0\""));
 }
 
 TEST_P(Netcdf, AnswersDamagedFilesByASentence)

@@ -404,8 +404,8 @@ TEST_F(SceneItems, WarningsNameTheFile)
   writeFile(folder_ / "my s.csv", splatTable(",label", {",a", ",b"}));
   load("cloud \"my s.csv\" lambda 0.5");
   ASSERT_EQ(report_.warnings.size(), 1u);
-  EXPECT_EQ(report_.warnings[0].find("my s.csv: It holds splats"), 0u)
-      << report_.warnings[0];
+  EXPECT_EQ(report_.warnings[0].code, "ready_splats");
+  EXPECT_EQ(report_.warnings[0].about, "my s.csv");
 }
 
 TEST_F(SceneItems, IncludesAndFolders)

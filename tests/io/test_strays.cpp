@@ -60,9 +60,14 @@ TEST(Strays, AreLeftOutCountedAndNamed)
   expectSame(expected, extract(withStrays(*cloud, {-1e20f}), settings, &report));
   EXPECT_EQ(1u, report.getCount("strays"));
   ASSERT_EQ(1u, report.warnings.size());
+  EXPECT_EQ(
+      pcl_uvol::Message(
+          "strays",
+          {{"strays", 1}, {"first", 7}, {"x", -1e20f}, {"y", 1e20f}, {"z", 1.0f}}),
+      report.warnings[0]);
   EXPECT_EQ("1 point lies 1e12 times as far out as most others and is left out: it is "
             "point 7 at (-1e+20, 1e+20, 1).",
-            report.warnings[0]);
+            report.warnings[0].text());
   const std::vector<float> many(1000, 3.4e38f);
   expectSame(expected, extract(withStrays(*cloud, many), settings, &report));
   EXPECT_EQ(1000u, report.getCount("strays"));

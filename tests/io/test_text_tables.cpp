@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // CSV and its relatives, and the real data sets.
 #include "random_dataset.h"
+#include "support/messages.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <filesystem>
@@ -30,6 +31,20 @@ std::string
 errorOf(const std::string& text, const LoadOptions& options = {})
 {
   return messageOf<IOError>([&] { load(text, options); });
+}
+
+/** The error as data. */
+Message
+refusalOf(const std::string& text)
+{
+  try {
+    load(text);
+  }
+  catch (const IOError& error) {
+    return error.asMessage();
+  }
+  ADD_FAILURE() << "It was read: " << text;
+  return std::string();
 }
 
 const std::string xyz = "x (float32), y (float32), z (float32)";
@@ -66,7 +81,8 @@ TEST(TextTables, TypesOfColumns)
   EXPECT_FALSE(load("x,y,z\n1.5,2,3\n").double_coordinates);
   EXPECT_TRUE(load("x,y,z\n1.123456789,2,3\n").double_coordinates);
   EXPECT_FALSE(load("x,y,z\n0.5000000000,2,3\n").double_coordinates);
-  EXPECT_EQ(load("x,y,z,id\n1,2,3,9007199254740993\n").notes.size(), 1u);
+  EXPECT_EQ(load("x,y,z,id\n1,2,3,9007199254740993\n").notes,
+            (std::vector<Message>{{"rounded_integers", {{"column", "id"}}}}));
 }
 
 /** As PLY and CloudCompare call them; numbers of cells and places are none. */
@@ -132,9 +148,9 @@ TEST(TextTables, ManyNamesMayBeNumbers)
   for (std::size_t i = 0; i < 6; ++i)
     EXPECT_EQ(labels[i], valueOf(third, "hole", i)) << i;
   ASSERT_EQ(third.notes.size(), 1u);
-  EXPECT_EQ(third.notes[0],
-            "The column 'hole' is kept as names, since 'A-117' in line 2 is no "
-            "number.");
+  EXPECT_EQ(
+      third.notes[0],
+      Message("kept_as_names", {{"column", "hole"}, {"cell", "A-117"}, {"line", 2}}));
   EXPECT_TRUE(load(namesInRows(5, 4)).notes.empty());
   // A tenth is enough; less, and a single one, are slips.
   EXPECT_EQ(load(namesInRows(2, 18)).labels.at("hole").size(), 3u);
@@ -167,7 +183,8 @@ TEST(TextTables, NamesThatDescribeSingleRowsAreLeftOut)
   const auto dataset = load(text + "1,2,3,one_more\n");
   EXPECT_EQ(describeFields(dataset.cloud.fields), xyz);
   ASSERT_EQ(dataset.notes.size(), 1u);
-  EXPECT_NE(dataset.notes[0].find("65536 different names"), std::string::npos);
+  EXPECT_EQ(dataset.notes[0],
+            Message("too_many_names", {{"column", "name"}, {"most", 65536}}));
 }
 
 TEST(TextTables, MissingCells)
@@ -183,11 +200,15 @@ TEST(TextTables, WhereTheCoordinatesAre)
   const auto first = load("u,v,w,q\n1.5,2.5,3.5,4\n");
   EXPECT_EQ(describeFields(first.cloud.fields), xyz + ", q (int32)");
   ASSERT_EQ(first.notes.size(), 1u);
-  EXPECT_NE(first.notes[0].find("u, v, w"), std::string::npos);
+  EXPECT_EQ(first.notes[0],
+            Message("guessed_coordinates",
+                    {{"skips_times", 0}, {"x", "u"}, {"y", "v"}, {"z", "w"}}));
   const auto unnamed = load("1 2 3 4\n5 6 7 8\n", {}, "a.xyz");
   EXPECT_EQ(describeFields(unnamed.cloud.fields), xyz + ", column_3 (int32)");
   EXPECT_EQ(unnamed.cloud.width, 2u);
-  EXPECT_EQ(unnamed.notes.size(), 2u);
+  EXPECT_EQ(listCodes(unnamed.notes),
+            (std::vector<std::string>{"no_header_line", "guessed_coordinates"}));
+  EXPECT_EQ(numberOf(unnamed.notes.at(0), "last"), 3.0);
   LoadOptions options;
   options.xyz_columns = {{"3", "1", "0"}};
   const auto chosen = load("a,x,b,c\n1,2,3,4\n", options);
@@ -248,14 +269,23 @@ TEST(TextTables, CoordinatesHaveUsualNames)
 
 TEST(TextTables, MixedUnitsAreToldUnlessNobodyMinds)
 {
-  for (const auto& [header, mixture] :
-       {std::pair("lon,lat,depth", "degrees with another unit"),
-        std::pair("x_km,y_km,z_m",
-                  "x_km, y_km and z_m, so distances mix different "
-                  "units of length")}) {
+  for (const auto& [header, mixture] : {std::pair("lon,lat,depth",
+                                                  Message("mixed_units",
+                                                          {{"x", "lon"},
+                                                           {"y", "lat"},
+                                                           {"z", "depth"},
+                                                           {"are_degrees", 1},
+                                                           {"can_be_mapped", 1}})),
+                                        std::pair("x_km,y_km,z_m",
+                                                  Message("mixed_units",
+                                                          {{"x", "x_km"},
+                                                           {"y", "y_km"},
+                                                           {"z", "z_m"},
+                                                           {"are_degrees", 0},
+                                                           {"can_be_mapped", 0}}))}) {
     const std::string table = header + std::string("\n1,2,3\n");
     ASSERT_EQ(load(table).notes.size(), 1u);
-    EXPECT_NE(load(table).notes[0].find(mixture), std::string::npos);
+    EXPECT_EQ(load(table).notes[0], mixture);
     pcl_uvol::LoadOptions options;
     options.may_mix_units = true;
     EXPECT_TRUE(load(table, options).notes.empty());
@@ -269,9 +299,11 @@ TEST(TextTables, WhereAnAxisIsNamedNothingIsGuessed)
                                    "lat,lon,a,b",
                                    "x_coord,y_coord,a,b",
                                    "x_m,y_m,a,elevation_deg"}) {
-    const std::string error = errorOf(std::string(header) + "\n1.5,2.5,3.5,4.5\n");
-    EXPECT_NE(error.find("only some"), std::string::npos) << header;
-    EXPECT_NE(error.find("-xyz"), std::string::npos) << header;
+    const auto error = refusalOf(std::string(header) + "\n1.5,2.5,3.5,4.5\n");
+    EXPECT_EQ(error.code, "some_coordinates_named") << header;
+    EXPECT_NE(error.text().find("(xyz)"), std::string::npos) << header;
+    EXPECT_NE(error.text(ParameterNames::Options).find("(-xyz)"), std::string::npos)
+        << header;
   }
   LoadOptions options;
   options.xyz_columns = {{"x_m", "y_m", "time_s"}}; // a time that is meant
@@ -290,23 +322,29 @@ TEST(TextTables, TimesAreNoCoordinates)
                                  "unix.ms"}) {
     const auto guessed = load(std::string(time) + ",u,v,w\n1.5,2.5,3.5,4.5\n");
     EXPECT_EQ(valueOf(guessed, "x", 0), 2.5) << time;
-    EXPECT_NE(guessed.notes.at(0).find("(u, v, w)"), std::string::npos) << time;
+    EXPECT_EQ(guessed.notes.at(0),
+              Message("guessed_coordinates",
+                      {{"skips_times", 1}, {"x", "u"}, {"y", "v"}, {"z", "w"}}))
+        << time;
   }
   EXPECT_EQ(valueOf(load("u,date,v,w\n1.5,2.5,3.5,4.5\n"), "z", 0), 4.5);
   EXPECT_EQ(valueOf(load("temp,u,tide\n1.5,2.5,3.5\n"), "x", 0), 1.5);
-  EXPECT_NE(errorOf("time,u,v\n1.5,2.5,3.5\n").find("but times"), std::string::npos);
+  EXPECT_EQ(refusalOf("time,u,v\n1.5,2.5,3.5\n").code, "only_times_named");
 }
 
 TEST(TextTables, WholeNumbersAreNoCoordinatesUnlessNamed)
 {
   const std::string table = "experiment,ix,iy,iz,ppm\n1,0,1,2,0.5\n1,3,4,5,0.25\n";
-  EXPECT_NE(errorOf(table).find("'experiment' may be anything"), std::string::npos);
+  const auto refusal = refusalOf(table);
+  EXPECT_EQ(refusal.code, "whole_numbers_guessed");
+  EXPECT_EQ(wordOf(refusal, "column"), "experiment");
   LoadOptions options;
   options.xyz_columns = {{"ix", "iy", "iz"}};
   EXPECT_EQ(valueOf(load(table, options), "z", 1), 5.0);
   // One whole number is enough for a doubt.
-  EXPECT_NE(errorOf("u,v,w\n0.5,2,3.5\n").find("'v'"), std::string::npos);
-  EXPECT_EQ(load("u,v,w\n0.5,2.5,3.5\n").notes.size(), 1u);
+  EXPECT_EQ(wordOf(refusalOf("u,v,w\n0.5,2,3.5\n"), "column"), "v");
+  EXPECT_EQ(listCodes(load("u,v,w\n0.5,2.5,3.5\n").notes),
+            std::vector<std::string>{"guessed_coordinates"});
   EXPECT_EQ(load("1 2 3 4\n", {}, "a.xyz").cloud.width, 1u); // no header, no doubt
 }
 

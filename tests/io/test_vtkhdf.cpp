@@ -6,6 +6,7 @@
 #include "hdf5_writer.h"
 #include "io/point_stream.h"
 #include "random_dataset.h"
+#include "support/messages.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset.h>
 
@@ -307,8 +308,7 @@ TEST_F(VtkHdf, OfSeveralTimesTheFirstIsRead)
   EXPECT_EQ(6.0, valueAt(points, "x", 0));
   EXPECT_EQ(8.0, valueAt(points, "T", 0));
   EXPECT_EQ(-3.0, valueAt(points, "v[0]", 0));
-  EXPECT_EQ(std::vector<std::string>{"Of its 2 times the first one is read."},
-            points.notes);
+  EXPECT_EQ((std::vector<Message>{{"first_time", {{"times", 2}}}}), points.notes);
   expectStreams(3);
   std::vector<Triangle> triangles;
   EXPECT_NE(std::string::npos, messageOf<IOError>([&] {
@@ -333,8 +333,9 @@ TEST_F(VtkHdf, ImagesAreSamples)
     EXPECT_EQ(5.0 + static_cast<double>(i), valueAt(points, "w", i));
   }
   ASSERT_EQ(1u, points.notes.size());
-  EXPECT_EQ(0u, points.notes[0].find("The array 'short' has 2 layers"))
-      << points.notes[0];
+  EXPECT_EQ("unfitting_layers", points.notes[0].code);
+  EXPECT_EQ("short", wordOf(points.notes[0], "array"));
+  EXPECT_EQ(2.0, numberOf(points.notes[0], "layers"));
   expectStreams(12);
 }
 
@@ -402,7 +403,7 @@ TEST_F(VtkHdf, DataOfCellsAreNamed)
   }
   const Dataset points = loadDataset(path_);
   ASSERT_EQ(1u, points.notes.size());
-  EXPECT_EQ(0u, points.notes[0].find("There are data of cells only"));
+  EXPECT_EQ("only_cell_data", points.notes[0].code);
 }
 
 TEST_F(VtkHdf, TruncationIsOneSentence)

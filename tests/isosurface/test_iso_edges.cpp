@@ -3,6 +3,7 @@
 // copied.
 #include "common/scalar_field.h"
 #include "isosurface/iso_edges.h"
+#include "support/messages.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 
@@ -135,7 +136,8 @@ TEST(InterpolateFields, FieldsThatGiveWayAreWarnedOf)
       makeCloud<float>("error", pcl::PCLPointField::FLOAT32, {1}, 1).fields,
       report);
   ASSERT_EQ(1u, report.warnings.size());
-  EXPECT_NE(std::string::npos, report.warnings[0].find("'error'"));
+  EXPECT_EQ("replaced_field", report.warnings[0].code);
+  EXPECT_EQ("error", uvol_test::wordOf(report.warnings[0], "field"));
   for (const char* const meant : {"x", "normal_x", "_"}) {
     const auto field = makeCloud<float>(meant, pcl::PCLPointField::FLOAT32, {1}, 1);
     pcl_uvol::warnOfReplacedFields(field.fields, field.fields, report);

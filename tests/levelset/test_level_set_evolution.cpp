@@ -3,6 +3,7 @@
 // they take away, and what they refuse.
 #include "levelset/level_set_setup.h"
 #include "levelset/phi_cloud.h"
+#include "support/messages.h"
 #include "support/noisy_shapes.h"
 #include "support/statistics.h"
 #include <pcl_uvol/common/exceptions.h>
@@ -415,10 +416,13 @@ TEST(LevelSetEvolution, SaysWhenItHasNotConverged)
   EXPECT_FALSE(evolution.getSummary().converged);
   EXPECT_EQ(3u, evolution.getSummary().steps.size());
   ASSERT_EQ(1u, evolution.getReport().warnings.size());
-  EXPECT_NE(std::string::npos,
-            evolution.getReport().warnings[0].find("not converged after 3 steps"));
-  EXPECT_NE(std::string::npos,
-            evolution.getReport().warnings[0].find("It ended at mu 0.7, where 0."));
+  const pcl_uvol::Message& told = evolution.getReport().warnings[0];
+  EXPECT_EQ("not_converged", told.code);
+  EXPECT_EQ(3.0, uvol_test::numberOf(told, "steps"));
+  EXPECT_EQ(0.0, uvol_test::numberOf(told, "is_last_stage"));
+  EXPECT_NEAR(0.7, uvol_test::numberOf(told, "mu"), 0.005);
+  EXPECT_GT(uvol_test::numberOf(told, "chosen_mu"), 0.0);
+  EXPECT_LT(uvol_test::numberOf(told, "chosen_mu"), 1.0);
 }
 
 TEST(LevelSetEvolution, PlanarCloudsAreEvolvedInTheirPlane)

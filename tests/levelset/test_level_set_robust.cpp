@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Level sets of data as people hold them: any unit, spikes, thin shapes, nothing to
 // smooth, and starts that are no distances.
-#include "levelset/level_set_sentences.h"
 #include "levelset/level_set_setup.h"
+#include "support/messages.h"
 #include "support/noisy_shapes.h"
 #include "support/smooth_fields.h"
 #include <pcl_uvol/common/exceptions.h>
@@ -43,12 +43,10 @@ directDeviationOf(const NoisyCloud& noisy)
 }
 
 bool
-hasWarning(const Evolution& evolution, const std::string& words)
+hasWarning(const Evolution& evolution, const std::string& code)
 {
-  const auto& warnings = evolution.getReport().warnings;
-  return std::any_of(warnings.begin(), warnings.end(), [&](const std::string& text) {
-    return text.find(words) != std::string::npos;
-  });
+  const auto codes = uvol_test::listCodes(evolution.getReport().warnings);
+  return std::find(codes.begin(), codes.end(), code) != codes.end();
 }
 
 TEST(LevelSetRobust, SameBytesInUnitsOfPowersOfTwo)
@@ -282,17 +280,26 @@ TEST(LevelSetRobust, SaysThatTheSurfaceHasVanished)
   std::vector<float> phi;
   evolution.evolve(phi);
   EXPECT_FALSE(evolution.getSummary().converged);
-  EXPECT_TRUE(hasWarning(evolution, "isovalue 7 has vanished"));
+  ASSERT_TRUE(hasWarning(evolution, "vanished"));
+  const Message& told = evolution.getReport().warnings.back();
+  EXPECT_EQ("vanished", told.code);
+  EXPECT_EQ("7", uvol_test::wordOf(told, "isovalue"));
+  EXPECT_EQ(1.0, uvol_test::numberOf(told, "starts_from_values"));
 }
 
 /** Values drew away what began elsewhere, whatever the weight of smoothing. */
 TEST(LevelSetRobust, SaysWhyTheStartHasVanished)
 {
-  LevelSetParameters parameters;
-  EXPECT_NE(std::string::npos, describeVanished(parameters).find("A larger mu"));
-  parameters.initial = InitialFunction::sphere({0.0, 0.0, 0.0}, 4.0);
-  EXPECT_EQ(std::string::npos, describeVanished(parameters).find("mu"));
-  EXPECT_NE(std::string::npos, describeVanished(parameters).find("outside"));
+  const auto describe = [](bool starts_from_values) {
+    return Message("vanished",
+                   {{"field", "f"},
+                    {"isovalue", "7"},
+                    {"starts_from_values", starts_from_values}})
+        .text();
+  };
+  EXPECT_NE(std::string::npos, describe(true).find("A larger mu"));
+  EXPECT_EQ(std::string::npos, describe(false).find("mu"));
+  EXPECT_NE(std::string::npos, describe(false).find("outside"));
 }
 
 /** Values in steps of two spacings, between two limits, of two classes. */
@@ -304,7 +311,7 @@ TEST(LevelSetRobust, SaysThatValuesInStepsDoNotTellTheirNoise)
       point.intensity = change(point.intensity);
     Evolution evolution;
     evolve(evolution, cloud);
-    return hasWarning(evolution, "% are the same: values in steps");
+    return hasWarning(evolution, "tied_values");
   };
   EXPECT_TRUE(told([](float f) { return 2.0f * std::floor(0.5f * f) + 1.0f; }));
   EXPECT_TRUE(told([](float f) { return std::clamp(f, -0.1f, 0.1f); }));
@@ -326,7 +333,7 @@ TEST(LevelSetRobust, TellsWhatSmoothingTookAway)
   evolution.setMu(0.02);
   evolve(evolution, both);
   EXPECT_GT(evolution.getReport().getCount("lost_samples"), 0u);
-  EXPECT_TRUE(hasWarning(evolution, "taken features away"));
+  EXPECT_TRUE(hasWarning(evolution, "lost_features"));
   EXPECT_FALSE(hasWarning(evolution, "vanished"));
 }
 

@@ -6,6 +6,7 @@
 #include "mesh/disjoint_sets.h"
 #include "mesh/point_fans.h"
 #include "support/environment.h"
+#include "support/messages.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/mesh/surface_measures.h>
 
@@ -172,7 +173,8 @@ TEST(PointMeasures, OpenSurfacesHaveAnAreaAndNoVolume)
   EXPECT_NEAR(2.0 * M_PI, piece.area.value, piece.area.error);
   EXPECT_LT(piece.area.error, 0.03 * piece.area.value);
   ASSERT_EQ(1u, measures.getReport().warnings.size());
-  EXPECT_NE(std::string::npos, measures.getReport().warnings[0].find("open"));
+  EXPECT_EQ("open_pieces", measures.getReport().warnings[0].code);
+  EXPECT_EQ(1.0, uvol_test::numberOf(measures.getReport().warnings[0], "open"));
 }
 
 TEST(PointMeasures, PiecesAreThoseThatTouchAndLookToOneSide)
@@ -241,7 +243,8 @@ TEST(PointMeasures, PointsAloneHaveNoPartAndAreTold)
   EXPECT_NEAR(4.0 * M_PI, figures.isovalues[0].area.value, 0.02);
   EXPECT_EQ(500, std::count(figures.piece_of.begin(), figures.piece_of.end(), -1));
   ASSERT_EQ(1u, measures.getReport().warnings.size());
-  EXPECT_NE(std::string::npos, measures.getReport().warnings[0].find("50 %"));
+  EXPECT_EQ("points_without_area", measures.getReport().warnings[0].code);
+  EXPECT_EQ(50.0, uvol_test::numberOf(measures.getReport().warnings[0], "percent"));
 
   // Two points are no surface.
   MeasuredShape two;
@@ -260,8 +263,7 @@ TEST(PointMeasures, NormalsOfAnySideAreTold)
   measures.setInputSurface(std::make_shared<Dataset>(shape.toDataset()), {});
   measures.compute();
   ASSERT_FALSE(measures.getReport().warnings.empty());
-  EXPECT_NE(std::string::npos,
-            measures.getReport().warnings[0].find("look to the other side"));
+  EXPECT_EQ("contrary_normals", measures.getReport().warnings[0].code);
   // Sheets that lie as far apart as their points are no such case.
   MeasuredShape shell = scatterSphere(3000, 12);
   MeasuredShape inner = scatterSphere(3000, 13);

@@ -3,6 +3,7 @@
 // samples counted one by one; the same for any unit, place and number of threads.
 #include "measured_shapes.h"
 #include "mesh_fields.h"
+#include "support/messages.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/mesh/surface_measures.h>
 
@@ -197,8 +198,9 @@ TEST(SurfaceMeasures, ErrorsOfVerticesAreErrorsOfTheVolume)
   EXPECT_NEAR(
       0.5 * piece.volume.error, measures.compute().isovalues[0].volume.error, 0.02);
   ASSERT_EQ(1u, measures.getReport().warnings.size());
-  EXPECT_NE(std::string::npos,
-            measures.getReport().warnings[0].find("% of the area has vertices"));
+  EXPECT_EQ("area_without_error", measures.getReport().warnings[0].code);
+  EXPECT_NEAR(
+      50.0, uvol_test::numberOf(measures.getReport().warnings[0], "percent"), 10.0);
 }
 
 TEST(SurfaceMeasures, WhatRimsAreOffByIsAnErrorOfTheArea)
@@ -231,7 +233,8 @@ TEST(SurfaceMeasures, OpenSurfacesHaveAnAreaAndNoVolume)
   // Second moments of a spherical shell.
   EXPECT_NEAR(2.0, piece.half_axes[0], 1e-2);
   ASSERT_EQ(1u, measures.getReport().warnings.size());
-  EXPECT_NE(std::string::npos, measures.getReport().warnings[0].find("open"));
+  EXPECT_EQ("open_pieces", measures.getReport().warnings[0].code);
+  EXPECT_EQ(1.0, uvol_test::numberOf(measures.getReport().warnings[0], "open"));
 }
 
 TEST(SurfaceMeasures, SaysWhatLooksInwards)
@@ -243,7 +246,8 @@ TEST(SurfaceMeasures, SaysWhatLooksInwards)
   measures.setInputSurface(std::make_shared<Dataset>(shape.toDataset()),
                            shape.triangles);
   EXPECT_LT(measures.compute().isovalues[0].volume.value, -33.0);
-  EXPECT_EQ(1u, measures.getReport().warnings.size());
+  ASSERT_EQ(1u, measures.getReport().warnings.size());
+  EXPECT_EQ("negative_volumes", measures.getReport().warnings[0].code);
 }
 
 TEST(SurfaceMeasures, ThingsThatTouchInAVertexOrAnEdgeAreTwo)
@@ -306,7 +310,11 @@ TEST(SurfaceMeasures, SaysWhereASurfaceGoesThroughItself)
     EXPECT_NEAR(64.5, pair.place[0], 0.5);
   }
   ASSERT_EQ(1u, measures.getReport().warnings.size());
-  EXPECT_NE(std::string::npos, measures.getReport().warnings[0].find("through itself"));
+  const Message& told = measures.getReport().warnings[0];
+  EXPECT_EQ("self_intersections", told.code);
+  EXPECT_EQ(static_cast<double>(figures.intersections.size()),
+            uvol_test::numberOf(told, "pairs"));
+  EXPECT_NEAR(64.5, uvol_test::numberOf(told, "x"), 0.5);
 }
 
 /** Samples at random in the unit cube, with a mass of 2. */
@@ -342,10 +350,11 @@ TEST(SurfaceMeasures, LeavesOutPiecesThatAreKnownNoBetterThanTheirSize)
   const SurfaceFigures all = measures.compute();
   EXPECT_EQ(2u, all.pieces.size());
   ASSERT_FALSE(measures.getReport().warnings.empty());
-  EXPECT_NE(std::string::npos,
-            measures.getReport().warnings.back().find("1 of 2 pieces"));
-  EXPECT_NE(std::string::npos,
-            measures.getReport().warnings.back().find("-drop-unsure leaves them out"));
+  const Message told = measures.getReport().warnings.back();
+  EXPECT_EQ("unsure_pieces", told.code);
+  EXPECT_EQ(1.0, uvol_test::numberOf(told, "unsure"));
+  EXPECT_EQ(2.0, uvol_test::numberOf(told, "pieces"));
+  EXPECT_EQ(0.0, uvol_test::numberOf(told, "are_left_out"));
   SurfaceMeasuresParameters parameters;
   parameters.drop_unsure = true;
   measures.setParameters(parameters);
@@ -380,8 +389,8 @@ TEST(SurfaceMeasures, MeshesInOnePlaneHaveNoVolumeAndNoSamplesInside)
     EXPECT_EQ(0, all.samples);
     EXPECT_TRUE(std::isnan(all.inside.at(0).mean));
     ASSERT_FALSE(measures.getReport().warnings.empty());
-    EXPECT_NE(std::string::npos,
-              measures.getReport().warnings[0].find("surfaces have no volume"));
+    EXPECT_EQ("flat_surfaces", measures.getReport().warnings[0].code);
+    EXPECT_EQ(1.0, uvol_test::numberOf(measures.getReport().warnings[0], "flat"));
   }
 }
 

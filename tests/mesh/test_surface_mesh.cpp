@@ -2,6 +2,7 @@
 // Meshes of isosurfaces: shape, place, angles; the same for any order, unit and number
 // of threads; manifold whatever the input.
 #include "mesh_fields.h"
+#include "support/messages.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/mesh/surface_mesh.h>
 
@@ -214,7 +215,8 @@ TEST(SurfaceMesh, CapsCloseWhatReachesTheBorder)
   EXPECT_GT(run.report.getCount("cap_vertices"), 100u);
   // More caps than surface.
   ASSERT_EQ(1u, run.report.warnings.size());
-  EXPECT_NE(std::string::npos, run.report.warnings[0].find("outside"));
+  EXPECT_EQ("large_caps", run.report.warnings[0].code);
+  EXPECT_EQ(1.0, uvol_test::numberOf(run.report.warnings[0], "is_lower_outside"));
   // On the other side of the values the caps are others.
   const MeshRun other = runMesh(makeSlab(), {}, {0.0}, Outside::Higher);
   EXPECT_NEAR(1.0, volumeOf(other.mesh) / 4000.0, 0.03);
@@ -356,7 +358,8 @@ TEST(SurfaceMesh, RefusesWhatItCannotDo)
   // No surface, but a warning.
   const MeshRun none = runMesh(cloud, {}, {100.0});
   EXPECT_TRUE(none.mesh.vertices.empty());
-  EXPECT_EQ(1u, none.report.warnings.size());
+  ASSERT_EQ(1u, none.report.warnings.size());
+  EXPECT_EQ("no_isopoints", none.report.warnings[0].code);
 }
 
 } // namespace test_surface_mesh

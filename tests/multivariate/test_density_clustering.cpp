@@ -4,6 +4,7 @@
 #include "multivariate/cluster_attributes.h"
 #include "multivariate/planted_clusters.h"
 #include "support/environment.h"
+#include "support/messages.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <gtest/gtest.h>
@@ -213,7 +214,9 @@ TEST(DensityClustering, ADenseSpotInUniformNoiseIsFound)
     EXPECT_EQ(0, found.labels[i]);
   EXPECT_EQ(0, *std::max_element(found.labels.begin(), found.labels.end()));
   ASSERT_EQ(1u, report.warnings.size());
-  EXPECT_NE(std::string::npos, report.warnings[0].find("belong to no cluster"));
+  EXPECT_EQ("mostly_noise", report.warnings[0].code);
+  EXPECT_EQ(static_cast<double>(report.getCount("noise")),
+            uvol_test::numberOf(report.warnings[0], "noise"));
 }
 
 TEST(DensityClustering, CutsAtADistance)
@@ -357,7 +360,7 @@ TEST(DensityClustering, FewOrEqualPointsGiveAWarningOrOneCluster)
     ASSERT_EQ(report.warnings.size(), few.clusters > 0 ? 0u : 1u);
     EXPECT_EQ(found.probabilities.front(), few.clusters > 0 ? 1.0f : 0.0f);
     if (few.clusters == 0) {
-      EXPECT_NE(report.warnings.front().find("No cluster found"), std::string::npos);
+      EXPECT_EQ("no_clusters", report.warnings.front().code);
     }
   }
 }

@@ -3,6 +3,7 @@
 #include "common/random.h"
 #include "multivariate/cluster_attributes.h"
 #include "multivariate/planted_clusters.h"
+#include "support/messages.h"
 #include <pcl_uvol/multivariate/density_clustering.h>
 
 #include <gtest/gtest.h>
@@ -68,14 +69,14 @@ clusterCloud(const std::vector<std::string>& attributes,
   return clustering.getReport();
 }
 
-/** The warnings of rounding. */
+/** What the warnings of rounding tell of attributes. */
 std::vector<std::string>
 findWarnings(const Report& report)
 {
   std::vector<std::string> found;
-  for (const std::string& warning : report.warnings)
-    if (warning.find("single value") != std::string::npos)
-      found.push_back(warning);
+  for (const pcl_uvol::Message& warning : report.warnings)
+    if (warning.code == "clusters_of_rounding")
+      found.push_back(uvol_test::wordOf(warning, "steps"));
   return found;
 }
 

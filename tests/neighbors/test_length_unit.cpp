@@ -3,6 +3,7 @@
 #include "neighbors/length_unit.h"
 #include "neighbors/sample_set.h"
 #include "support/environment.h"
+#include "support/messages.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <gtest/gtest.h>
@@ -105,9 +106,13 @@ TEST(LengthUnit, EndsAtTheFarthestSample)
   EXPECT_EQ(positions.size() - 1, samples->size());
   EXPECT_EQ(1u, report.getCount("strays"));
   ASSERT_EQ(1u, report.warnings.size());
-  EXPECT_NE(std::string::npos,
-            report.warnings[0].find("point 0 at (1.09951e+12, 0, 0)"))
-      << report.warnings[0];
+  const auto& warning = report.warnings[0];
+  EXPECT_EQ("strays", warning.code);
+  EXPECT_EQ(1.0, uvol_test::numberOf(warning, "strays"));
+  EXPECT_EQ(0.0, uvol_test::numberOf(warning, "first"));
+  EXPECT_EQ(double(positions[0].x[0]), uvol_test::numberOf(warning, "x"));
+  for (const char* const axis : {"y", "z"})
+    EXPECT_EQ(0.0, uvol_test::numberOf(warning, axis)) << axis;
 }
 
 TEST(LengthUnit, SamplesAreTheSameInAnyUnit)

@@ -8,6 +8,7 @@
 #include <pcl/conversions.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace uvol_test {
@@ -24,14 +25,14 @@ runPipeline(const std::shared_ptr<pcl_uvol::Dataset>& samples,
   return pipeline.run();
 }
 
-/** \brief The first warning that has some words; empty without one. */
-inline std::string
-findWarning(const pcl_uvol::IsosurfaceResult& result, const std::string& words)
+/** \brief The first warning of a code. */
+inline std::optional<pcl_uvol::Message>
+findWarning(const pcl_uvol::IsosurfaceResult& result, const std::string& code)
 {
-  for (const std::string& warning : result.report.warnings)
-    if (warning.find(words) != std::string::npos)
+  for (const pcl_uvol::Message& warning : result.report.warnings)
+    if (warning.code == code)
       return warning;
-  return "";
+  return std::nullopt;
 }
 
 inline pcl::PointCloud<pcl_uvol::PointIso>

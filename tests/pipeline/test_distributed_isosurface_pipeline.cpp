@@ -5,6 +5,7 @@
 #include "pipeline/run_pipeline.h"
 #include "support/clouds.h"
 #include "support/environment.h"
+#include "support/messages.h"
 #include "support/thread_ranks.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
@@ -102,10 +103,9 @@ TEST(DistributedIsosurfacePipeline, WarnsOfWhatAllCountTogether)
       distributed.setParameters(parameters);
       const auto found = distributed.run();
       const std::lock_guard lock(mutex);
-      for (const std::string& warning : found.report.warnings)
-        if (warning.find("outlier") != std::string::npos ||
-            warning.find("were left out") != std::string::npos)
-          warnings.insert(warning);
+      for (const pcl_uvol::Message& warning : found.report.warnings)
+        if (warning.code == "spikes" || warning.code == "no_isopoints_left")
+          warnings.insert(warning.text());
     });
     return warnings;
   };
@@ -151,7 +151,8 @@ TEST(DistributedIsosurfacePipeline, TellsOfGuessesAsOneProcessDoes)
         uvol_test::runPipeline(takePart(lines, 0, lines.size()), parameters).report;
     EXPECT_EQ(is_linear ? 2048u : 0u, expected.getCount("examined"));
     ASSERT_EQ(1u, expected.warnings.size());
-    EXPECT_NE(std::string::npos, expected.warnings[0].find("between lines"));
+    EXPECT_EQ("guessed_isopoints", expected.warnings[0].code);
+    EXPECT_GE(uvol_test::numberOf(expected.warnings[0], "percent"), 50.0);
     uvol_test::runRanks(3, [&](pcl_uvol::Communicator& communicator) {
       const std::size_t rank = communicator.rank(), size = lines.size();
       DistributedIsosurfacePipeline pipeline(communicator);

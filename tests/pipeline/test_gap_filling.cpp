@@ -5,6 +5,7 @@
 #include "pipeline/gap_filling.h"
 #include "pipeline/run_pipeline.h"
 #include "support/environment.h"
+#include "support/messages.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <gtest/gtest.h>
@@ -15,7 +16,7 @@
 #include <cstring>
 #include <memory>
 #include <numeric>
-#include <regex>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,6 +24,8 @@
 namespace test_gap_filling {
 
 using namespace pcl_uvol;
+using uvol_test::numberOf;
+using uvol_test::wordOf;
 
 constexpr double pi = 3.14159265358979323846;
 
@@ -77,39 +80,33 @@ isPredicted(const PointIso& point)
   return point.support == static_cast<std::uint8_t>(IsoSupport::Predicted);
 }
 
-/** What is said of isopoints between the lines. */
-std::string
-findGuesses(const IsosurfacePipelineParameters& parameters)
-{
-  for (const std::string& warning :
-       uvol_test::runPipeline(makeProfiles(20), parameters).report.warnings)
-    if (warning.find("lie between lines of samples") != std::string::npos)
-      return warning;
-  return "";
-}
-
 TEST(GapFilling, IsAdvisedAsOtherOptionsThatWereNotGiven)
 {
-  const auto advises = [](const std::string& warning, const std::string& advice) {
-    return warning.find("is a guess." + advice) != std::string::npos;
-  };
   IsosurfacePipelineParameters parameters = makeParameters(false);
-  const std::string test = " A hold-out test tells how good it is (-validate).";
-  EXPECT_TRUE(
-      advises(findGuesses(parameters), test + " -scale or -fill-gaps may help."))
-      << findGuesses(parameters);
-  parameters.isosurface.scale = {1.0f, 1.0f, 2.0f};
-  EXPECT_TRUE(advises(findGuesses(parameters), test + " -fill-gaps may help."))
-      << findGuesses(parameters);
+  for (const bool is_scaled : {false, true}) {
+    if (is_scaled)
+      parameters.isosurface.scale = {1.0f, 1.0f, 2.0f};
+    const auto told = uvol_test::findWarning(
+        uvol_test::runPipeline(makeProfiles(20), parameters), "guessed_isopoints");
+    ASSERT_TRUE(told) << is_scaled;
+    EXPECT_EQ(1.0, numberOf(*told, "validate"));
+    EXPECT_EQ(is_scaled ? 0.0 : 1.0, numberOf(*told, "scale"));
+    EXPECT_EQ(1.0, numberOf(*told, "gaps"));
+    const std::string text = told->text(ParameterNames::Options),
+                      advice = "is a guess. A hold-out test tells how good it is "
+                               "(-validate). ";
+    EXPECT_NE(std::string::npos,
+              text.find(advice + (is_scaled ? "-fill-gaps may help."
+                                            : "-scale or -fill-gaps may help.")))
+        << text;
+  }
 }
 
 /** Layers are not lines with gaps between, and fits to them know a plane. */
 TEST(GapFilling, SaysWhereItMakesTheSurfaceWorse)
 {
-  const std::string worse = "The surface is worse where gaps are filled";
-  EXPECT_EQ("",
-            uvol_test::findWarning(
-                uvol_test::runPipeline(makeProfiles(40), makeParameters(true)), worse));
+  EXPECT_FALSE(uvol_test::findWarning(
+      uvol_test::runPipeline(makeProfiles(40), makeParameters(true)), "worse_in_gaps"));
   uvol_test::Random random(4);
   pcl::PointCloud<pcl::PointXYZI> cells;
   for (int i = 0; i < 12 * 12 * 60; ++i) {
@@ -122,9 +119,10 @@ TEST(GapFilling, SaysWhereItMakesTheSurfaceWorse)
   }
   const auto samples = std::make_shared<Dataset>();
   pcl::toPCLPointCloud2(cells, samples->cloud);
-  const std::string warning = uvol_test::findWarning(
-      uvol_test::runPipeline(samples, makeParameters(true)), worse);
-  EXPECT_NE(std::string::npos, warning.find("Leave out -fill-gaps.")) << warning;
+  const auto worse = uvol_test::findWarning(
+      uvol_test::runPipeline(samples, makeParameters(true)), "worse_in_gaps");
+  ASSERT_TRUE(worse);
+  EXPECT_GT(numberOf(*worse, "predicted"), numberOf(*worse, "measured"));
 }
 
 /** Half a gap is what nobody can tell more of; on a profile the samples are near. */
@@ -163,15 +161,16 @@ TEST(GapFilling, LinearIsopointsHaveErrorsAndSupport)
 }
 
 /** What is said where no gap was filled: in the report's warnings, and as a fact. */
-std::pair<std::string, std::string>
+std::pair<std::optional<Message>, std::string>
 tellUnfilled(const std::shared_ptr<Dataset>& samples)
 {
   const auto result = uvol_test::runPipeline(samples, makeParameters(true));
   EXPECT_EQ(0u, result.gaps->predicted);
-  for (const std::string& warning : result.report.warnings)
-    if (warning.find("none was filled: " + result.gaps->unfilled) != std::string::npos)
-      return {warning, result.gaps->unfilled};
-  return {"", result.gaps->unfilled};
+  const auto warning = uvol_test::findWarning(result, "unfilled_gaps");
+  if (warning) {
+    EXPECT_EQ(result.gaps->unfilled, wordOf(*warning, "reason"));
+  }
+  return {warning, result.gaps->unfilled};
 }
 
 TEST(GapFilling, SaysWhyItFillsNone)
@@ -179,7 +178,7 @@ TEST(GapFilling, SaysWhyItFillsNone)
   // Nothing lies beside a profile.
   const auto [few_warning, few] = tellUnfilled(makeProfiles(1));
   EXPECT_EQ("the samples are too few to tell how wide they are", few);
-  EXPECT_NE("", few_warning);
+  EXPECT_TRUE(few_warning);
   // Samples all around have no gaps, and there is nothing to warn of.
   uvol_test::Random random(5);
   pcl::PointCloud<pcl::PointXYZI> cloud;
@@ -194,7 +193,7 @@ TEST(GapFilling, SaysWhyItFillsNone)
   pcl::toPCLPointCloud2(cloud, dense->cloud);
   const auto [dense_warning, around] = tellUnfilled(dense);
   EXPECT_EQ("samples lie all around the surface", around);
-  EXPECT_EQ("", dense_warning);
+  EXPECT_FALSE(dense_warning);
 }
 
 /** Adds noise to the field.
@@ -220,7 +219,9 @@ TEST(GapFilling, LeavesOutWhatItExplainsNothingOf)
 {
   // Values at random tell nothing of others.
   const auto [warning, unfilled] = tellUnfilled(makeNoisyProfiles(30, 0.0f));
-  EXPECT_NE(std::string::npos, warning.find("by the variogram values tell of others"));
+  ASSERT_TRUE(warning);
+  EXPECT_NE(std::string::npos,
+            wordOf(*warning, "reason").find("by the variogram values tell of others"));
   // Far from a profile the noise leaves nothing to tell.
   const auto result =
       uvol_test::runPipeline(makeNoisyProfiles(12, 0.5f), makeParameters(true));
@@ -246,14 +247,11 @@ TEST(GapFilling, CountsWhatWentWhereNothingIsLeft)
   ASSERT_GT(result.gaps->predicted, 0u);
   const auto points = uvol_test::toIsopoints(result);
   ASSERT_FALSE(std::any_of(points.begin(), points.end(), isPredicted));
-  const std::regex counted(
-      "There are no isopoints between the samples: of ([0-9]+) that "
-      "were found, kriging explains nothing of the variance at "
-      "\\1, and 0 lie off the surface that it predicts\\.");
-  const auto& warnings = result.report.warnings;
-  EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(), [&](const auto& warning) {
-    return std::regex_match(warning, counted);
-  }));
+  const auto told = uvol_test::findWarning(result, "no_isopoints_in_gaps");
+  ASSERT_TRUE(told);
+  EXPECT_GT(numberOf(*told, "found"), 0.0);
+  EXPECT_EQ(numberOf(*told, "found"), numberOf(*told, "unexplained"));
+  EXPECT_EQ(0.0, numberOf(*told, "off_surface"));
 }
 
 TEST(GapFilling, FollowsTheFloorBetweenProfiles)
@@ -583,10 +581,9 @@ TEST(GapFilling, WarnsWhereKrigingExplainsLittle)
                                        4.0 * (random.uniform() - 0.5)));
   setField(*samples, "intensity", noise);
   const auto result = uvol_test::runPipeline(samples, makeParameters(true));
-  std::string all;
-  for (const std::string& warning : result.report.warnings)
-    all += warning;
-  EXPECT_NE(std::string::npos, all.find("confidence")) << all;
+  const auto told = uvol_test::findWarning(result, "guess_in_gaps");
+  ASSERT_TRUE(told);
+  EXPECT_LT(numberOf(*told, "percent"), 50.0);
 }
 
 /** As grades of ore have: the mean square of differences is that of the spikes. */

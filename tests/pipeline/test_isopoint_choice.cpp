@@ -3,6 +3,7 @@
 #include "common/scalar_field.h"
 #include "pipeline/run_pipeline.h"
 #include "support/environment.h"
+#include "support/messages.h"
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
 #include <gtest/gtest.h>
@@ -106,14 +107,28 @@ extractAt(const std::shared_ptr<Dataset>& samples, double isovalue)
 }
 
 /** What is said of most of the isopoints. */
-std::string
+std::vector<Message>
 findGuesses(const IsosurfaceResult& result)
 {
-  std::string found;
-  for (const std::string& warning : result.report.warnings)
-    if (warning.find(" % of the isopoints lie ") != std::string::npos)
-      found += warning;
+  std::vector<Message> found;
+  for (const Message& warning : result.report.warnings)
+    for (const char* const code : {"isopoints_at_border",
+                                   "isopoints_beside_samples",
+                                   "guessed_isopoints",
+                                   "smoothed_guesses",
+                                   "guessed_border"})
+      if (warning.code == code)
+        found.push_back(warning);
   return found;
+}
+
+/** That most of the isopoints lie between lines of samples, and nothing else. */
+void
+expectLinesAreTold(const IsosurfaceResult& result)
+{
+  const std::vector<Message> found = findGuesses(result);
+  ASSERT_EQ(std::vector<std::string>{"guessed_isopoints"}, uvol_test::listCodes(found));
+  EXPECT_GE(uvol_test::numberOf(found[0], "percent"), 50.0);
 }
 
 /** Isopoints on rims, and in gaps those that lie on good fits, by the fields. */
@@ -138,41 +153,40 @@ countAtBorder(const IsosurfaceResult& result)
 TEST(IsopointChoice, BordersOfSamplesAreNoGapsBetweenLines)
 {
   const IsosurfaceResult corners = extractAt(makeSphere(20000), 0.6 - 1.62);
-  EXPECT_EQ(
-      std::to_string(100 * countAtBorder(corners) / corners.surface.cloud.width) +
-          " % of the isopoints lie at the border of the samples: the surface may go on "
-          "beyond it.",
-      findGuesses(corners));
-  const std::string lines = findGuesses(extractAt(makeProfiles(20), 0.0));
-  EXPECT_NE(std::string::npos,
-            lines.find("lie between lines of samples or beside gaps"))
-      << lines;
-  EXPECT_EQ(std::string::npos, lines.find("border")) << lines;
-  EXPECT_EQ("", findGuesses(extractAt(makeSphere(20000), 0.0)));
+  const std::vector<Message> told = findGuesses(corners);
+  ASSERT_EQ(std::vector<std::string>{"isopoints_at_border"},
+            uvol_test::listCodes(told));
+  const std::size_t percent =
+      100 * countAtBorder(corners) / corners.surface.cloud.width;
+  EXPECT_EQ(static_cast<double>(percent), uvol_test::numberOf(told[0], "percent"));
+  expectLinesAreTold(extractAt(makeProfiles(20), 0.0));
+  EXPECT_TRUE(findGuesses(extractAt(makeSphere(20000), 0.0)).empty());
 }
 
 /** Linear isopoints and vertices of meshes rest on no more, and of the former a share
  * is looked at. */
 TEST(IsopointChoice, AllSurfacesOnLinesOfSamplesAreTold)
 {
-  const std::string told = "lie between lines of samples or beside gaps";
   IsosurfacePipelineParameters parameters = makeParameters(Interpolation::Linear);
   const IsosurfaceResult linear = uvol_test::runPipeline(makeProfiles(20), parameters);
-  EXPECT_NE(std::string::npos, findGuesses(linear).find(told)) << findGuesses(linear);
+  expectLinesAreTold(linear);
   EXPECT_EQ(std::min<std::size_t>(1024, linear.surface.cloud.width),
             linear.report.getCount("examined"));
   for (const PointIso& point : uvol_test::toIsopoints(linear))
     EXPECT_EQ(0, point.support);
-  EXPECT_EQ("", findGuesses(uvol_test::runPipeline(makeSphere(20000), parameters)));
+  EXPECT_TRUE(
+      findGuesses(uvol_test::runPipeline(makeSphere(20000), parameters)).empty());
 
   parameters = makeParameters(Interpolation::Auto);
   parameters.mesh.emplace();
   const IsosurfaceResult mesh = uvol_test::runPipeline(makeProfiles(20), parameters);
-  EXPECT_NE(std::string::npos, findGuesses(mesh).find(told)) << findGuesses(mesh);
-  EXPECT_EQ("", findGuesses(uvol_test::runPipeline(makeSphere(20000), parameters)));
+  expectLinesAreTold(mesh);
+  EXPECT_TRUE(
+      findGuesses(uvol_test::runPipeline(makeSphere(20000), parameters)).empty());
   // Caps, of which most vertices are, rest on nothing.
   parameters.isosurface.isovalues = {0.6 - 1.25};
-  EXPECT_EQ("", findGuesses(uvol_test::runPipeline(makeSphere(20000), parameters)));
+  EXPECT_TRUE(
+      findGuesses(uvol_test::runPipeline(makeSphere(20000), parameters)).empty());
 }
 
 /** There is no line in a slab two spacings thick, nor in a lattice of 3 by 3 by 3. */
@@ -199,8 +213,11 @@ TEST(IsopointChoice, FewSamplesAllAroundHaveABorder)
   for (const auto* const cloud : {&slab, &lattice}) {
     const auto samples = std::make_shared<Dataset>();
     pcl::toPCLPointCloud2(*cloud, samples->cloud);
-    const std::string told = findGuesses(extractAt(samples, 0.0));
-    EXPECT_NE(std::string::npos, told.find("lie at the border of the samples")) << told;
+    const std::vector<Message> told = findGuesses(extractAt(samples, 0.0));
+    ASSERT_EQ(1u, told.size());
+    EXPECT_TRUE(told[0].code == "isopoints_at_border" ||
+                told[0].code == "isopoints_beside_samples")
+        << told[0];
   }
 }
 
@@ -237,8 +254,9 @@ TEST(IsopointChoice, GoesBackToEdgesBetweenLines)
             meanCosine(uvol_test::toIsopoints(fit), truth));
   EXPECT_EQ(LocalDimension::Line, chosen.sampling->most);
   ASSERT_EQ(2u, chosen.report.warnings.size());
-  EXPECT_NE(std::string::npos, chosen.report.warnings[1].find("contradict"));
-  EXPECT_NE(std::string::npos, chosen.report.warnings[0].find("-validate"));
+  EXPECT_EQ("contradicted_isopoints", chosen.report.warnings[1].code);
+  EXPECT_EQ("guessed_isopoints", chosen.report.warnings[0].code);
+  EXPECT_EQ(1.0, uvol_test::numberOf(chosen.report.warnings[0], "validate"));
 }
 
 /** None goes back to its edge there: fields tell what it is on instead. */
@@ -316,7 +334,9 @@ TEST(IsopointChoice, SaysSoWhereBoundsLeaveNothing)
   const auto none = uvol_test::runPipeline(samples, parameters);
   EXPECT_EQ(0u, none.surface.cloud.width);
   ASSERT_EQ(1u, none.report.warnings.size());
-  EXPECT_NE(std::string::npos, none.report.warnings[0].find("left out by -max-error:"));
+  EXPECT_EQ("no_isopoints_left", none.report.warnings[0].code);
+  EXPECT_EQ(1.0, uvol_test::numberOf(none.report.warnings[0], "by_error"));
+  EXPECT_EQ(0.0, uvol_test::numberOf(none.report.warnings[0], "by_support"));
   parameters.max_error = 0.01;
   EXPECT_TRUE(uvol_test::runPipeline(samples, parameters).report.warnings.empty());
 }

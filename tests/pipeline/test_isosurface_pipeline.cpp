@@ -5,6 +5,7 @@
 #include "pipeline/noisy_ball.h"
 #include "pipeline/run_pipeline.h"
 #include "support/clouds.h"
+#include "support/messages.h"
 #include <pcl_uvol/levelset/level_set_evolution.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 #include <pcl_uvol/surface/surface_normals.h>
@@ -175,18 +176,18 @@ TEST(IsosurfacePipeline, SaysWhereLittleIsLeft)
   const IsosurfaceResult all = uvol_test::runPipeline(samples, parameters);
   std::vector<float> errors = readColumn(all.surface, "error");
   std::sort(errors.begin(), errors.end());
-  const auto findWarnings = [&](double share) {
+  const auto findWarning = [&](double share) {
     parameters.max_error =
         errors[static_cast<std::size_t>(share * static_cast<double>(errors.size()))];
-    std::string found;
-    for (const std::string& warning :
-         uvol_test::runPipeline(samples, parameters).report.warnings)
-      found +=
-          warning.find("are left by -max-error") == std::string::npos ? "" : warning;
-    return found;
+    return uvol_test::findWarning(uvol_test::runPipeline(samples, parameters),
+                                  "few_isopoints_left");
   };
-  EXPECT_NE("", findWarnings(0.05));
-  EXPECT_EQ("", findWarnings(0.2));
+  const auto told = findWarning(0.05);
+  ASSERT_TRUE(told);
+  EXPECT_EQ(1.0, uvol_test::numberOf(*told, "by_error"));
+  EXPECT_LT(uvol_test::numberOf(*told, "left"),
+            0.1 * uvol_test::numberOf(*told, "isopoints"));
+  EXPECT_FALSE(findWarning(0.2));
 }
 
 TEST(IsosurfacePipeline, SmoothsAsTheLevelSetAlone)
@@ -272,7 +273,9 @@ TEST(IsosurfacePipeline, KeepsIsovaluesThatFloatDoesNotHold)
       EXPECT_EQ(2.0 * unit, isovalue.read(view.point(i)));
     // Two that float takes for one.
     parameters.isosurface.isovalues = {2.0 * unit, 2.1 * unit};
-    EXPECT_EQ(1u, uvol_test::runPipeline(samples, parameters).report.warnings.size());
+    EXPECT_EQ(std::vector<std::string>{"equal_isovalues"},
+              uvol_test::listCodes(
+                  uvol_test::runPipeline(samples, parameters).report.warnings));
   }
 }
 
@@ -337,7 +340,8 @@ TEST(IsosurfacePipeline, WarnsOfReplacedFields)
   pcl_uvol::setField(*samples, "error", std::vector<float>(4000, 1.0f));
   const auto result = uvol_test::runPipeline(samples, makeParameters());
   ASSERT_EQ(1u, result.report.warnings.size());
-  EXPECT_NE(result.report.warnings[0].find("'error'"), std::string::npos);
+  EXPECT_EQ("replaced_field", result.report.warnings[0].code);
+  EXPECT_EQ("error", uvol_test::wordOf(result.report.warnings[0], "field"));
 }
 
 TEST(IsosurfacePipeline, ForecastsItsMemory)

@@ -2,6 +2,7 @@
 // Errors after smoothing: of where the surface is, not of how well fits follow phi.
 #include "pipeline/run_pipeline.h"
 #include "pipeline/zero_level.h"
+#include "support/messages.h"
 #include "support/noisy_shapes.h"
 #include <pcl_uvol/levelset/level_set_evolution.h>
 
@@ -154,10 +155,10 @@ TEST(LevelSetErrors, ASurfaceThatVanishedIsToldByItsOwnIsovalue)
     const auto result = uvol_test::runPipeline(samples, parameters, 0);
     ASSERT_EQ(0u, result.surface.cloud.width);
     bool is_told = false;
-    for (const std::string& warning : result.report.warnings) {
-      is_told =
-          is_told || warning.find("isovalue 0.3 has vanished") != std::string::npos;
-      EXPECT_EQ(std::string::npos, warning.find(" phi")) << warning;
+    for (const Message& warning : result.report.warnings) {
+      is_told = is_told || (warning.code == "vanished" &&
+                            uvol_test::wordOf(warning, "isovalue") == "0.3");
+      EXPECT_EQ(std::string::npos, warning.text().find(" phi")) << warning;
     }
     EXPECT_TRUE(is_told);
   }

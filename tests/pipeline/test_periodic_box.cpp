@@ -5,6 +5,7 @@
 #include "pipeline/run_pipeline.h"
 #include "src/mesh/plane_cut.h"
 #include "src/neighbors/periodic_box.h"
+#include "support/messages.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/exceptions.h>
 
@@ -254,8 +255,8 @@ TEST(PeriodicBox, WeldedMeshesCloseAcrossTheFaces)
         EXPECT_EQ(0u, result.pieces[i].rims);
       }
       EXPECT_GT(checkImages(result, Eigen::Array3d::Constant(side)), 30u);
-      for (const std::string& warning : result.report.warnings)
-        EXPECT_EQ(std::string::npos, warning.find("no image")) << warning;
+      for (const Message& warning : result.report.warnings)
+        EXPECT_NE("edges_without_image", warning.code) << warning;
     }
 }
 
@@ -316,13 +317,11 @@ TEST(PeriodicBox, WhatCannotBeWeldedIsToldOf)
   std::size_t rims = 0;
   for (const SurfacePiece& piece : result.pieces)
     rims += piece.rims;
-  const bool is_told = std::any_of(result.report.warnings.begin(),
-                                   result.report.warnings.end(),
-                                   [](const std::string& text) {
-                                     return text.find("no image") != std::string::npos;
-                                   });
+  const auto told = findWarning(result, "edges_without_image");
   EXPECT_GT(rims, 0u);
-  EXPECT_TRUE(is_told);
+  ASSERT_TRUE(told);
+  EXPECT_GT(numberOf(*told, "left"), 0.0);
+  EXPECT_LE(numberOf(*told, "left"), numberOf(*told, "edges"));
   checkImages(result, Eigen::Array3d::Constant(side));
 
   IsosurfacePipelineParameters parameters = makePeriodicParameters(0.0);
@@ -422,10 +421,12 @@ TEST(PeriodicBox, LiesWhereTheSamplesDo)
   EXPECT_EQ(0.0, low_of(-20.0, 5.0));          // out of all boxes
   EXPECT_GT(report.getCount("moved_into_box"), 100u);
   ASSERT_EQ(1u, report.warnings.size());
-  EXPECT_EQ(0u, report.warnings[0].find("Samples extend over"));
+  EXPECT_EQ("samples_beyond_box", report.warnings[0].code);
+  EXPECT_EQ("x", wordOf(report.warnings[0], "axis"));
   low_of(0.0, 0.5);
   ASSERT_EQ(2u, report.warnings.size());
-  EXPECT_EQ(0u, report.warnings[1].find("Samples fill"));
+  EXPECT_EQ("unfilled_box", report.warnings[1].code);
+  EXPECT_EQ(side, numberOf(report.warnings[1], "side"));
 }
 
 TEST(PeriodicBox, IsRefusedWhereItIsNone)

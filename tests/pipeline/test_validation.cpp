@@ -3,6 +3,7 @@
 #include "pipeline/hold_out.h"
 #include "pipeline/run_pipeline.h"
 #include "support/environment.h"
+#include "support/messages.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <gtest/gtest.h>
@@ -148,18 +149,24 @@ TEST(Validation, SaysWhoIsBetterThanTheSurface)
   EXPECT_TRUE(warn(6, 4, 50).empty());
   // 7 of 10 do: 0.04 with one of 0.0314.
   ASSERT_EQ(1u, warn(7, 3, 50).size());
-  EXPECT_NE(std::string::npos, warn(7, 3, 50)[0].find("nearest sample tells"));
-  EXPECT_LT(warn(7, 3, 50)[0].size(), 300u);
-  EXPECT_NE(std::string::npos, warn(7, 3, 50)[0].find(". -scale or -fill-gaps may "));
+  const Message better = warn(7, 3, 50)[0];
+  EXPECT_EQ("lines_tell_better", better.code);
+  EXPECT_EQ(1.0, uvol_test::numberOf(better, "scale"));
+  EXPECT_EQ(1.0, uvol_test::numberOf(better, "gaps"));
+  const std::string options = better.text(ParameterNames::Options);
+  EXPECT_LT(options.size(), 300u);
+  EXPECT_NE(std::string::npos, options.find(". -scale or -fill-gaps may "));
   parameters.fill_gaps = true; // what was given is not advised
-  EXPECT_EQ(std::string::npos, warn(7, 3, 50)[0].find("-fill-gaps"));
+  EXPECT_EQ(1.0, uvol_test::numberOf(warn(7, 3, 50)[0], "scale"));
+  EXPECT_EQ(0.0, uvol_test::numberOf(warn(7, 3, 50)[0], "gaps"));
   sampling = SamplingSummary{{0.0, 0.0, 0.0, 1.0}, LocalDimension::Volume, 1.0f, 1.0f};
   ASSERT_EQ(1u, warn(7, 3, 50).size());
-  EXPECT_EQ(std::string::npos, warn(7, 3, 50)[0].find("lines of samples"));
-  EXPECT_NE(std::string::npos, warn(7, 3, 50)[0].find("noisy or outliers"));
+  EXPECT_EQ("samples_tell_better", warn(7, 3, 50)[0].code);
+  EXPECT_TRUE(warn(7, 3, 50)[0].values.empty()); // nothing is advised
   ASSERT_EQ(1u, warn(0, 0, 25).size());
-  EXPECT_NE(std::string::npos, warn(0, 0, 25)[0].find("always saying the same"));
-  EXPECT_EQ(2u, warn(7, 3, 25).size());
+  EXPECT_EQ("surface_tells_nothing", warn(0, 0, 25)[0].code);
+  EXPECT_EQ((std::vector<std::string>{"surface_tells_nothing", "samples_tell_better"}),
+            uvol_test::listCodes(warn(7, 3, 25)));
   Report none;
   warnOfScores({scoreHeldOut({})}, parameters, sampling, none);
   EXPECT_TRUE(none.warnings.empty());
@@ -188,7 +195,7 @@ TEST(Validation, SaysWhereErrorsAreTooSmall)
   EXPECT_TRUE(warn(29, 29).empty());
   EXPECT_TRUE(warn(30, 6).empty());
   ASSERT_EQ(1u, warn(30, 7).size());
-  EXPECT_NE(std::string::npos, warn(30, 7)[0].find("errors are too small"));
+  EXPECT_EQ("small_errors", warn(30, 7)[0].code);
 }
 
 TEST(Validation, SaysThatNoiseHasNoSurface)

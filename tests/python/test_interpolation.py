@@ -155,9 +155,10 @@ def test_grids_and_gradients_are_not_drawn(linear):
 def test_variograms_are_those_of_the_tool(tmp_path, run_tool, linear):
     linear.save(tmp_path / "samples.ply")
     told = json.loads(run_tool("uvol_probe", "samples.ply", "-model", "kriging", "-field", "f,g", "-variogram-csv", "v.csv", "-json"))
-    with pytest.warns(UserWarning, match="no variogram"):
+    with pytest.warns(UserWarning, match="no variogram") as warned:
         interpolator = uvol.Interpolator(linear, field=["f", "g"], model="kriging")
         interpolator([5e5 + 0.5, 4e6 + 0.5, 0.5])
+    assert {"field": "g"} in [warning.message.values for warning in warned if warning.message.code == "no_variogram"]
     assert list(interpolator.variograms) == list(told["variograms"]) == ["f"]
     found, by_tool = interpolator.variograms["f"], told["variograms"]["f"]
     assert found["kind"] == by_tool["kind"]
@@ -233,8 +234,9 @@ def test_grids_become_datasets_of_xarray(linear):
 
 
 def test_queries_outside_are_a_warning(linear):
-    with pytest.warns(uvol.ResultWarning):
+    with pytest.warns(uvol.ResultWarning) as warned:
         values, _ = uvol.Interpolator(linear, field="f")(np.zeros((20, 3)))
+    assert "queries_outside" in [warning.message.code for warning in warned]
     assert np.isnan(values).all()
 
 

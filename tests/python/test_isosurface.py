@@ -176,10 +176,12 @@ def test_pickled_surfaces_are_the_same(sphere):
 
 
 def test_no_isopoints_are_a_warning(ball):
-    with pytest.warns(uvol.ResultWarning, match="outside the range"):
+    with pytest.warns(uvol.ResultWarning, match="outside the range") as warned:
         surface = uvol.isosurface(*ball, field="r", iso=7.0)
     assert len(surface) == 0 and surface.points.shape == (0, 3) and surface.normals.shape == (0, 3)
-    assert surface.report["warnings"]
+    told, warning = surface.report["warnings"][0], warned[0].message
+    assert told["code"] == warning.code == "no_isopoints" and told["values"] == warning.values
+    assert warning.values["isovalue"] == "7" and warning.values["field"] == "r"
     assert "0 points" in repr(surface) and surface._repr_png_() is None
 
 
@@ -370,8 +372,9 @@ def test_surfaces_are_compared_as_the_tool_does(tmp_path, run_tool, ball):
     assert told["largest_distance"] == found.largest and "largest 0.0" in repr(found)
     uvol.write(tmp_path / "module.ply", found.surface, triangles=a[1])
     assert (tmp_path / "module.ply").read_bytes() == (tmp_path / "tool.ply").read_bytes()
-    with pytest.warns(uvol.ResultWarning, match="b has no triangles"):
+    with pytest.warns(uvol.ResultWarning, match="b has no triangles") as warned:
         assert np.isclose(uvol.compare(a, a[0]).back.largest, 0, atol=1e-6)
+    assert [(warning.message.code, warning.message.values) for warning in warned] == [("no_triangles", {"surface": "b"})]
 
 
 @pytest.mark.parametrize("triangles, message", [
@@ -468,14 +471,14 @@ def test_memory_that_is_not_there_is_a_memoryerror(run_python):
     ("uvol.voronoi(points, cells=1500)", r"A grid of 1500 x \d+ x \d+ cells needs 4\d GB"),
     ("uvol.empty(10**9, {'a': 'f8'})", "A cloud of 1000000000 points needs 20 GB"),
     ("uvol.Interpolator(points, {'a': points[:, 0]}).grid((1000, 1000, 1000))", "An array of 1000000000 places needs 24 GB"),
-    ("uvol.Samples(points).render(size=12000)", "a picture of 12000 x 12000 pixels"),
+    ("uvol.Samples(points).render(size=6000)", "a picture of 6000 x 6000 pixels"),
 ])
 def test_memory_that_is_not_there_is_told_with_what_it_is_for(run_python, call, message):
     out = run_python(f"""
         import resource, numpy as np, pcl_uvol as uvol
         import pcl_uvol._charts
         points = np.random.default_rng(1).random((1000, 3))
-        resource.setrlimit(resource.RLIMIT_AS, (3_000_000_000,) * 2)
+        resource.setrlimit(resource.RLIMIT_AS, (1_200_000_000,) * 2)
         try:
             {call}
         except MemoryError as error:

@@ -90,8 +90,10 @@ def test_names_are_coloured_as_the_tools_do(tmp_path, run_tool, sphere):
         run_tool("uvol_render", "in.ply", "tool.png", "-size", "300x200", "-color", "hole", "-backend", "cpu")
         samples = uvol.read(tmp_path / "in.ply")
         if count > 20:
-            with pytest.warns(uvol.ResultWarning, match="no legend"):
+            with pytest.warns(uvol.ResultWarning, match="no legend") as warned:
                 picture = samples.render(size=(300, 200), color="hole")
+            assert {"most": 20, "field": "hole"} in [warning.message.values for warning in warned]
+            assert "repeated_colors" in [warning.message.code for warning in warned]
         else:
             picture = samples.render(size=(300, 200), color="hole")
         picture.save(tmp_path / "module.png")

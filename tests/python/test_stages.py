@@ -37,11 +37,15 @@ def test_level_sets(tmp_path, run_tool, ball, arguments, options):
 def test_level_sets_tell_of_guesses_as_the_tool_does(tmp_path, run_tool):
     run_tool("uvol_generate", "in.pcd", "-field", "torus", "-n", 5000, "-samples", "holes")
     told = json.loads(run_tool("uvol_levelset", "in.pcd", "out.ply", "-field", "torus", "-iso", 0, "-steps", 1, "-json"))
-    guesses = [warning for warning in told["warnings"] if "between lines of samples" in warning]
+    guesses = [warning for warning in told["warnings"] if warning["code"] == "smoothed_guesses"]
     assert len(guesses) == 1
-    with pytest.warns(uvol.ResultWarning, match="between lines of samples"):
+    with pytest.warns(uvol.ResultWarning, match="between lines of samples") as warned:
         found = uvol.level_set(uvol.read(tmp_path / "in.pcd"), field="torus", iso=0, max_steps=1)
-    assert guesses[0] in found.report["warnings"]
+    assert "smoothed_guesses" in [warning.message.code for warning in warned]
+    same = [warning for warning in found.report["warnings"] if warning["code"] == "smoothed_guesses"]
+    assert [warning["values"] for warning in same] == [guesses[0]["values"]]
+    # The tool names options, the module arguments.
+    assert "(-fill-gaps)" in guesses[0]["text"] and "(fill_gaps)" in same[0]["text"]
 
 
 @pytest.mark.parametrize("arguments, options", [
@@ -127,8 +131,10 @@ def test_splats_as_gaussians(tmp_path, run_tool, ball, arguments, options):
     compare(tmp_path, run_tool, "uvol_splats", surface, ["-gaussians", *arguments],
             lambda samples: uvol.splats(samples, gaussians=True, **options))
     far = uvol.Samples(surface.points + [5e5, 0, 0], {name: surface[name] for name in surface.keys()})
-    with pytest.warns(uvol.ResultWarning, match="start at an origin, 5"):
+    with pytest.warns(uvol.ResultWarning, match="start at an origin, 5") as warned:
         uvol.splats(far, gaussians=True)
+    lost, = (warning.message for warning in warned if warning.message.code == "gaussians_without_origin")
+    assert lost.values["origin"].startswith("5")
     with pytest.raises(KeyError, match="no field 'q'"):
         uvol.splats(surface, gaussians=True, color="q")
 

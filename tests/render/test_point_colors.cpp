@@ -2,6 +2,7 @@
 // Colours of points: their own in either form, and those of a scalar field.
 #include "io/random_dataset.h"
 #include "render/point_colors.h"
+#include "support/messages.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/point_types.h>
 
@@ -217,7 +218,9 @@ TEST(PointColors, AreLogarithmicOnRequest)
   EXPECT_TRUE(report.warnings.empty());
   warnOfLogarithms(view, "q", mapping, report);
   ASSERT_EQ(1u, report.warnings.size());
-  EXPECT_NE(std::string::npos, report.warnings[0].find("at 2 of 6 points"));
+  EXPECT_EQ("no_logarithms", report.warnings[0].code);
+  EXPECT_EQ(2.0, uvol_test::numberOf(report.warnings[0], "grey"));
+  EXPECT_EQ(6.0, uvol_test::numberOf(report.warnings[0], "points"));
   mapping.range = {0.0, 1.0};
   EXPECT_THROW(colorPoints(view, "q", mapping), InvalidArgument);
   const auto negative = makeScalar({-1.0f, 0.0f});

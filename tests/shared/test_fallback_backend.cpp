@@ -2,6 +2,7 @@
 // Pictures that are begun on a graphics card and finished on the CPU.
 #include "gl/context.h"
 #include "shared/fallback_backend.h"
+#include "support/messages.h"
 #include "support/surfaces.h"
 #include <pcl_uvol/render/image_space/image_space_renderer.h>
 
@@ -65,8 +66,9 @@ TEST_F(FallbackBackend, DrawsOnTheCpuWhatACardCannot)
   renderer_.render(image_);
   EXPECT_EQ(expected_.color, image_.color);
   ASSERT_EQ(1u, renderer_.getReport().warnings.size());
-  EXPECT_NE(std::string::npos,
-            renderer_.getReport().warnings[0].find("There is no memory left."));
+  const pcl_uvol::Message& warning = renderer_.getReport().warnings[0];
+  EXPECT_EQ("graphics_card_failed", warning.code);
+  EXPECT_EQ("There is no memory left.", uvol_test::wordOf(warning, "reason"));
   EXPECT_EQ(0u, renderer_.getReport().getCount("half_done"));
   EXPECT_EQ(0u, renderer_.describeBackend().find("cpu"));
   renderer_.render(image_); // without another try

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One coordinate system for all files of a command, and degrees of what it writes.
 #include "support/environment.h"
+#include "support/messages.h"
 #include "tools/tool_test.h"
 #include <pcl_uvol/common/map_projection.h>
 #include <pcl_uvol/io/dataset.h>
@@ -197,7 +198,9 @@ TEST_F(Maps, TwoLostFixesDoNotChangeAVolume)
   EXPECT_NEAR(map.latitude, moved.latitude, 0.01);
   EXPECT_EQ(map.per_kilometre, moved.per_kilometre);
   EXPECT_EQ(notes.size() + 1, with.size());
-  EXPECT_EQ(0u, with[1].find("2 of 1200 positions are far from all others"));
+  EXPECT_EQ("far_positions", with[1].code);
+  EXPECT_EQ(2.0, uvol_test::numberOf(with[1], "far"));
+  EXPECT_EQ(1200.0, uvol_test::numberOf(with[1], "positions"));
 }
 
 } // namespace test_maps

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Surfaces around clusters: what they enclose, and how far away they are.
 #include "support/interruption.h"
+#include "support/messages.h"
 #include "vtk/cluster_shapes.h"
 
 #include <pcl/point_types.h>
@@ -114,7 +115,7 @@ TEST(ClusterSurfaces, FallIntoPiecesBelowHalfTheLongestEdge)
     const ClusterSurface surface =
         Cluster(points).enclose(kind, settingsOf(0.25), report);
     EXPECT_EQ((std::vector<long>{0, 0}), generaOf(surface.mesh));
-    EXPECT_EQ(1u, report.warnings.size());
+    EXPECT_EQ(std::vector<std::string>{"short_distance"}, listCodes(report.warnings));
   }
 }
 
@@ -347,9 +348,13 @@ TEST(ClusterSurfaces, TellThatMembersShareCells)
     Report own;
     Cluster(points).enclose(kind, settingsOf(0.0), own);
     ASSERT_EQ(1u, own.warnings.size());
-    for (const char* const words :
-         {"The 2001 points of the cluster lie in", "the point of index 2000 lies"})
-      EXPECT_NE(std::string::npos, own.warnings[0].find(words)) << own.warnings[0];
+    const pcl_uvol::Message& warning = own.warnings[0];
+    EXPECT_EQ("shared_cells", warning.code);
+    EXPECT_EQ(2001.0, numberOf(warning, "points"));
+    EXPECT_EQ(kind == ClusterSurfaceKind::Distance ? 1.0 : 0.0,
+              numberOf(warning, "is_distance"));
+    EXPECT_EQ(1.0, numberOf(warning, "has_outlier"));
+    EXPECT_EQ(2000.0, numberOf(warning, "point"));
   }
 }
 

@@ -276,10 +276,8 @@ warnOfNames(const pcl_uvol::CloudView& cloud,
 {
   if (pcl_uvol::findLabels(cloud.fields, labels, field) &&
       !hasLegend(cloud, labels, field))
-    report.warnings.push_back("The points have more than " +
-                              std::to_string(most_categories) + " names in " +
-                              pcl_uvol::quoteText(field) +
-                              ": their colours repeat, and the picture has no legend.");
+    report.warn("repeated_colors",
+                {{"most", most_categories}, {"field", pcl_uvol::shortenText(field)}});
 }
 
 std::string

@@ -43,7 +43,7 @@ ColorOptions::check() const
                        " is one of categories.");
   }
   catch (const pcl_uvol::InvalidArgument& error) {
-    throw UsageError(error.what());
+    throw UsageError(error.asMessage().text(pcl_uvol::ParameterNames::Options));
   }
   if (!range_.empty() && !(range_[0] < range_[1]))
     throw UsageError("-range takes two numbers, the lower one first.");

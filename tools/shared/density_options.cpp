@@ -109,8 +109,7 @@ DensityOptions::computeField(pcl_uvol::Dataset& dataset,
       own);
   pcl_uvol::setField(dataset, "sph_density", densities);
   if (fields.mass_field.empty())
-    report.warnings.push_back(
-        "There is no field of masses: sph_density counts particles per volume.");
+    report.warn("no_masses");
 }
 
 } // namespace uvol_tools

@@ -21,8 +21,7 @@ FallbackBackend::render(const pcl_uvol::Frame& frame,
     report.merge(tried);
   }
   catch (const pcl_uvol::GlError& error) {
-    report.warnings.push_back("The graphics card could not draw it, the CPU did: " +
-                              error.message());
+    report.warn("graphics_card_failed", {{"reason", error.message()}});
     current_ = std::make_shared<pcl_uvol::CpuBackend>();
     is_on_cpu_ = true;
     current_->render(frame, image, report);

@@ -39,9 +39,7 @@ PeriodicOption::findSides(const pcl_uvol::Dataset& samples,
 {
   if (text_.empty()) {
     if (pcl_uvol::isPeriodic(samples.box))
-      report.warnings.push_back("The file names a box of " + joined(samples.box) +
-                                ": if it repeats, -periodic header sees neighbours "
-                                "across its faces.");
+      report.warn("box_in_file", {{"sides", joined(samples.box)}});
     return {};
   }
   if (text_ != "header") {

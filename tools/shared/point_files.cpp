@@ -145,16 +145,9 @@ keepMap(const std::string& path,
   CommandMap& command = getCommandMap();
   const auto map = pcl_uvol::findMap(points);
   if (map && !options.map && !command.first.empty())
-    report.warnings.push_back(
-        "The positions of '" + pcl_uvol::printable(path) +
-        "' are mapped and those of '" + pcl_uvol::printable(command.first) +
-        "' are not: their coordinates are not in one system. Try: -map auto maps both, "
-        "-map lon,lat around a given origin.");
+    report.warn("only_one_mapped", {{"path", path}, {"other", command.first}});
   if (!map && options.map && !options.map->isComplete())
-    report.warnings.push_back(
-        "'" + pcl_uvol::printable(path) +
-        "' has no columns or fields of longitude and latitude in degrees: -map leaves "
-        "its coordinates as they are.");
+    report.warn("no_longitudes", {{"path", path}});
   if (!command.map)
     command.map = map;
   if (command.first.empty())

@@ -10,31 +10,53 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <unistd.h>
-#include <unordered_map>
+#include <variant>
 #include <vector>
 
 namespace uvol_tools {
 
 namespace {
 
+using pcl_uvol::ParameterNames;
 using pcl_uvol::printable;
 
+/** A warning, and how often it was given. */
+struct CountedWarning {
+  pcl_uvol::Message message;
+  std::size_t times = 0;
+};
+
 /** Equal warnings, which a scene of many clouds has, once and with their number. */
-std::vector<std::string>
-countEqual(const std::vector<std::string>& warnings)
+std::vector<CountedWarning>
+countEqual(const std::vector<pcl_uvol::Message>& warnings)
 {
-  std::unordered_map<std::string, std::size_t> numbers;
-  for (const std::string& warning : warnings)
-    ++numbers[warning];
-  std::vector<std::string> told;
-  for (const std::string& warning : warnings) {
-    std::size_t& number = numbers[warning];
-    if (number > 0)
-      told.push_back(number == 1 ? warning
-                                 : warning + " (" + std::to_string(number) + " times)");
-    number = 0;
+  std::vector<CountedWarning> told;
+  for (const pcl_uvol::Message& warning : warnings) {
+    auto same =
+        std::find_if(told.begin(), told.end(), [&](const CountedWarning& other) {
+          return other.message == warning;
+        });
+    if (same == told.end())
+      same = told.insert(same, {warning});
+    ++same->times;
   }
   return told;
+}
+
+nlohmann::ordered_json
+toJson(const CountedWarning& warning)
+{
+  Facts values;
+  for (const auto& value : warning.message.values)
+    std::visit([&](const auto& held) { values.emplace_back(value.name, held); },
+               value.value);
+  nlohmann::ordered_json object{
+      {"code", warning.message.code},
+      {"text", warning.message.text(ParameterNames::Options)},
+      {"values", nlohmann::ordered_json::parse(Fact("values", values).getJson())}};
+  if (warning.times > 1)
+    object["times"] = warning.times;
+  return object;
 }
 
 /** Switches the terminal's colour for its lifetime; nothing in a pipe. */
@@ -131,7 +153,9 @@ printReport(const Options& options,
       object["counts"][name] = value;
     for (const auto& [step, value] : report.milliseconds)
       object["milliseconds"][step] = value;
-    object["warnings"] = countEqual(report.warnings);
+    object["warnings"] = nlohmann::ordered_json::array();
+    for (const CountedWarning& warning : countEqual(report.warnings))
+      object["warnings"].push_back(toJson(warning));
     // File names need not be UTF-8.
     std::cout << object.dump(2, ' ', false, nlohmann::json::error_handler_t::replace)
               << '\n';
@@ -146,8 +170,10 @@ printReport(const Options& options,
     printAll(report, in_colour);
   else
     printCounts(report, in_colour);
-  for (const std::string& warning : countEqual(report.warnings)) {
-    const std::string line = "Warning: " + printable(warning) + '\n';
+  for (const auto& [warning, times] : countEqual(report.warnings)) {
+    const std::string line =
+        "Warning: " + printable(warning.text(ParameterNames::Options)) +
+        (times > 1 ? " (" + std::to_string(times) + " times)" : "") + '\n';
     const Colour colour(
         std::cerr, !plain && isatty(STDERR_FILENO) != 0, warning_colour);
     std::cerr << line;

@@ -217,9 +217,7 @@ RenderOptions::drawCloud(const Options& options,
   if (options.given("color") && !colorField(cloud).empty())
     showColorsWithoutLight(renderer.settings());
   else if (isInvisible(settings_))
-    report.warnings.push_back("The surface is white, as is the background: -no-shading "
-                              "leaves its lines, by -silhouettes and -features, or "
-                              "colours, by -color.");
+    report.warn("white_on_white");
   renderer.settings().background = getBackgroundOfViews();
   renderer.setOpacities(opacities_);
   renderer.setBackend(makeBackend(

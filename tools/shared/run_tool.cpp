@@ -60,13 +60,13 @@ catchErrors(const char* tool, const std::function<int()>& body)
     return {2, std::string(error.what()) + " (" + tool + " -h lists the options)"};
   }
   catch (const pcl_uvol::IOError& error) { // which names its file
-    return {1, error.message()};
+    return {1, error.asMessage().text(pcl_uvol::ParameterNames::Options)};
   }
   catch (const pcl_uvol::ExpressionError& error) {
     return {1, withFile(error.getSentence()), error.getMarkedLines()};
   }
   catch (const pcl_uvol::Exception& error) {
-    return {1, withFile(error.message())};
+    return {1, withFile(error.asMessage().text(pcl_uvol::ParameterNames::Options))};
   }
   catch (const std::bad_alloc&) {
     return {1, withFile("There is not enough memory.")};

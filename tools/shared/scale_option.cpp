@@ -83,7 +83,7 @@ ScaleOption::finish(const Options& options)
     pcl_uvol::detail::StretchAxes checked(stretch_.rotation);
   }
   catch (const pcl_uvol::InvalidArgument& error) {
-    throw UsageError(error.message());
+    throw UsageError(error.asMessage().text(pcl_uvol::ParameterNames::Options));
   }
 }
 

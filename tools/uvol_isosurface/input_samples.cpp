@@ -25,10 +25,7 @@ addOuterLayer(const Options& options,
               Report& report)
 {
   if (arguments.parameters.isosurface.interpolation != pcl_uvol::Interpolation::Linear)
-    report.warnings.push_back(
-        "Fits swing where the field steps to the value outside: pieces beside the "
-        "surface "
-        "may be theirs, and -interpolation linear, for points, has none.");
+    report.warn("fits_swing");
   const std::string& field = arguments.parameters.isosurface.field;
   pcl_uvol::addOuterLayer(samples,
                           field.empty() ? pcl_uvol::ScalarField::defaultName(

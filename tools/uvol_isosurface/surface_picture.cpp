@@ -96,8 +96,7 @@ SurfacePicture::draw(const Options& options,
                      pcl_uvol::Report& report) const
 {
   if (surface.cloud.width == 0) {
-    report.warnings.push_back("There is nothing to draw: " + path_ +
-                              " was not written.");
+    report.warn("nothing_to_draw", {{"path", path_}});
     return "";
   }
   const pcl_uvol::StepTimer timer(report, "picture");

@@ -149,10 +149,10 @@ ProbePicture::drawSlice(const std::string& field,
     return !std::isnan(value) && !plot.scale.hasPlace(value);
   });
   if (hidden > 0)
-    report.warnings.push_back("The picture is grey at " + std::to_string(hidden) +
-                              " of " + std::to_string(values.size()) +
-                              " places, where values of " + pcl_uvol::quoteText(field) +
-                              " are not above 0 and have no logarithm.");
+    report.warn("grey_places",
+                {{"hidden", hidden},
+                 {"places", values.size()},
+                 {"field", pcl_uvol::shortenText(field)}});
   plot.contours = contours_;
   plot.paper = paper_;
   if (near_ >= 0.0) {

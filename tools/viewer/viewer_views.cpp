@@ -307,8 +307,9 @@ ViewerWindow::openFile(const std::string& path)
   }
   nameWindow(path);
   std::string warnings;
-  for (const std::string& warning : file.report.warnings)
-    warnings += (warnings.empty() ? "" : "\n") + warning;
+  for (const pcl_uvol::Message& warning : file.report.warnings)
+    warnings += (warnings.empty() ? "" : "\n") +
+                warning.text(pcl_uvol::ParameterNames::Options);
   show(warnings);
 }
 

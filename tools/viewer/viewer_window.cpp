@@ -476,7 +476,7 @@ ViewerWindow::attempt(const std::function<void()>& action)
     action();
   }
   catch (const pcl_uvol::Exception& error) {
-    tellFailure(error.message());
+    tellFailure(error.asMessage().text(pcl_uvol::ParameterNames::Options));
   }
   catch (const std::exception& error) {
     tellFailure(error.what());

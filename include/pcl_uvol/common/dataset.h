@@ -5,6 +5,7 @@
 
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/message.h>
 
 #include <pcl/PCLPointCloud2.h>
 
@@ -45,9 +46,9 @@ struct PCL_UVOL_EXPORTS Dataset {
   /** Columns of names: int32 fields of the cloud, -1 where a point has no name. Fields
    * that are not there, and values beyond the names, are passed over. */
   LabelNames labels;
-  /** One sentence each: what reading had to decide (columns taken as coordinates, list
+  /** What reading had to decide (columns taken as coordinates, list
    * properties left out, ...). */
-  std::vector<std::string> notes;
+  std::vector<Message> notes;
   /** Data that the cells of a file of VTK have and that were left out, by name: the
    * centres of cells have them, see LoadOptions::cells. */
   std::vector<std::string> cell_fields;

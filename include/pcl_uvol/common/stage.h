@@ -4,6 +4,7 @@
 #pragma once
 
 #include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/message.h>
 
 #include <atomic>
 #include <chrono>
@@ -27,8 +28,8 @@ using ProgressCallback = std::function<void(const std::string& step, double done
 struct PCL_UVOL_EXPORTS Report {
   std::vector<std::pair<std::string, std::uint64_t>> counts;
   std::vector<std::pair<std::string, double>> milliseconds;
-  /** One sentence each: what the user should know although the run succeeded. */
-  std::vector<std::string> warnings;
+  /** What the user should know although the run succeeded. */
+  std::vector<Message> warnings;
   /** Empty: nobody is told. */
   ProgressCallback progress;
 
@@ -54,6 +55,12 @@ struct PCL_UVOL_EXPORTS Report {
    * \param milliseconds_spent what is added */
   void
   time(const std::string& step, double milliseconds_spent);
+
+  /** \brief Append a warning.
+   * \param code row of the table of messages
+   * \param values all that the text of that row holds */
+  void
+  warn(std::string code, std::vector<MessageValue> values = {});
 
   /** \brief Append the counts, times and warnings of another stage.
    * \param other report of a stage that this one ran */

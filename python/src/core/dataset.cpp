@@ -172,8 +172,7 @@ withDensity(const DatasetPtr& dataset,
                                report));
   });
   if (fields.mass_field.empty())
-    report.warnings.push_back(
-        "There is no field of masses: sph_density counts particles per volume.");
+    report.warn("no_masses");
   return py::make_tuple(result, toDict(report));
 }
 
@@ -313,6 +312,9 @@ getState(const Dataset& dataset)
   for (const pcl::PCLPointField& field : dataset.cloud.fields)
     fields.append(py::make_tuple(
         py::bytes(field.name), field.offset, field.datatype, field.count));
+  py::list notes;
+  for (const Message& note : dataset.notes)
+    notes.append(py::make_tuple(note.code, toDict(note)["values"], toText(note.about)));
   const auto& data = dataset.cloud.data;
   return py::make_tuple(
       fields,
@@ -322,7 +324,7 @@ getState(const Dataset& dataset)
       dataset.origin,
       dataset.double_coordinates,
       dataset.has_coordinates,
-      dataset.notes,
+      notes,
       listLabels(dataset, [](const std::string& name) { return py::bytes(name); }),
       dataset.box,
       dataset.cloud.header.frame_id);
@@ -352,7 +354,12 @@ setState(const py::tuple& state)
   dataset.origin = state[4].cast<std::array<double, 3>>();
   dataset.double_coordinates = state[5].cast<bool>();
   dataset.has_coordinates = state[6].cast<bool>();
-  dataset.notes = state[7].cast<std::vector<std::string>>();
+  for (const py::handle item : state[7]) {
+    const auto note = item.cast<py::tuple>();
+    dataset.notes.push_back(
+        toMessage(note[0].cast<std::string>(), note[1].cast<py::dict>()));
+    dataset.notes.back().about = note[2].cast<std::string>();
+  }
   dataset.labels = state[8].cast<LabelNames>();
   dataset.box = state[9].cast<std::array<double, 3>>();
   cloud.header.frame_id = state[10].cast<std::string>();
@@ -374,7 +381,8 @@ bindDataset(py::module_& module)
       .def_readonly("origin", &Dataset::origin)
       .def_readonly("double_coordinates", &Dataset::double_coordinates)
       .def_readonly("has_coordinates", &Dataset::has_coordinates)
-      .def_readonly("notes", &Dataset::notes)
+      .def_property_readonly(
+          "notes", [](const Dataset& dataset) { return toDicts(dataset.notes); })
       .def_readonly("box", &Dataset::box)
       .def_property_readonly("map", &getMap)
       .def("on_map", &putOnMap)

@@ -2,6 +2,7 @@
 #include "common/memory.h"
 #include "common/similar_words.h"
 #include "core/bindings.h"
+#include "shared/convert.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <exception>
@@ -24,11 +25,14 @@ isOfMissingField(const std::string& message)
   return message.rfind("There is no field ", 0) == 0;
 }
 
+/** \param message its code becomes an attribute, None where it is but a text */
 void
-raise(const py::handle& type, const std::string& message)
+raise(const py::handle& type, const Message& message)
 {
-  PyErr_SetObject(type.ptr(),
-                  py::bytes(message).attr("decode")("utf-8", "replace").ptr());
+  const py::object error = type(toText(message.text()));
+  error.attr("code") =
+      message.code == "text" ? py::object(py::none()) : toText(message.code);
+  PyErr_SetObject(type.ptr(), error.ptr());
 }
 
 } // namespace
@@ -40,33 +44,37 @@ bindErrors(py::module_& module)
   module.attr("_errors") = py::module_::import("pcl_uvol._errors");
   static const py::handle errors = py::object(module.attr("_errors")).release();
   module.def("find_similar", &findSimilar);
+  module.def("make_message", [](const std::string& code, const py::dict& values) {
+    return toDict(toMessage(code, values));
+  });
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown)
         std::rethrow_exception(thrown);
     }
     catch (const IOError& error) {
-      raise(PyExc_OSError, error.message());
+      raise(PyExc_OSError, error.asMessage());
     }
     catch (const Diverged& error) {
-      raise(errors.attr("DivergedError"), error.message());
+      raise(errors.attr("DivergedError"), error.asMessage());
     }
     catch (const NotEnoughMemory& error) {
-      raise(PyExc_MemoryError, error.message());
+      raise(PyExc_MemoryError, error.asMessage());
     }
     catch (const Exception& error) {
       raise(isOfMissingField(error.message()) ? errors.attr("FieldError")
                                               : py::handle(PyExc_ValueError),
-            error.message());
+            error.asMessage());
     }
     catch (const std::bad_alloc&) {
-      raise(PyExc_MemoryError, "There is not enough memory.");
+      raise(PyExc_MemoryError, Message("There is not enough memory."));
     }
     catch (const std::length_error&) { // of a vector longer than any memory
-      raise(PyExc_MemoryError, "There is not enough memory.");
+      raise(PyExc_MemoryError, Message("There is not enough memory."));
     }
     catch (const std::system_error&) { // of threads that the system does not give
-      raise(PyExc_MemoryError, "There are not enough memory or threads for it.");
+      raise(PyExc_MemoryError,
+            Message("There are not enough memory or threads for it."));
     }
   });
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Fields between the samples: a model that answers queries, and the places of lines,
 // slices and grids.
-#include "common/sample_checks.h"
 #include "core/bindings.h"
 #include "core/large_memory.h"
 #include "interpolation/answer_summary.h"
@@ -72,9 +71,6 @@ public:
                                 .model;
       interpolator_ = std::make_unique<FieldInterpolator>(
           view_, indices_, parameters_, threads, report_);
-      warnOfConflicts(view_.count - report_.getCount("duplicates"),
-                      interpolator_->getNames().size(),
-                      report_);
       report_.progress = nullptr;
     });
   }

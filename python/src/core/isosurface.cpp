@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The pipeline from samples to an isosurface, which keeps its tree.
 #include "common/memory.h"
-#include "common/sample_checks.h"
 #include "core/bindings.h"
 #include "pipeline/gap_filling.h"
 #include "pipeline/memory_need.h"
@@ -154,7 +153,6 @@ public:
       const std::lock_guard<std::mutex> lock(mutex_);
       result = run(samples, taken, threads, callback);
     });
-    warnOfConflicts(result.report.getCount("samples"), 1, result.report);
     py::dict report = describe(result);
     report["parameters"] = toText(taken.toJson());
     return py::make_tuple(share(std::move(result.surface)),

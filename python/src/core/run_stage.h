@@ -4,7 +4,6 @@
 #pragma once
 
 #include "common/records.h"
-#include "common/sample_checks.h"
 #include "shared/convert.h"
 #include "shared/interruptible.h"
 
@@ -45,9 +44,7 @@ runStage(StageT& stage,
     stage.setProgressCallback(callback);
     work();
   });
-  Report told = stage.getReport();
-  warnOfConflicts(told.getCount("samples"), 1, told);
-  pybind11::dict report = toDict(told);
+  pybind11::dict report = toDict(stage.getReport());
   report["parameters"] = toText(taken);
   return report;
 }

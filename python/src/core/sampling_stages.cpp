@@ -106,7 +106,7 @@ describePlaces(const Dataset& dataset,
   dict["sampling"] = py::dict(py::arg("shares") = statistics.sampling.shares,
                               py::arg("along") = statistics.sampling.along,
                               py::arg("across") = statistics.sampling.across);
-  dict["warnings"] = statistics.warnings;
+  dict["warnings"] = toDicts(statistics.warnings);
   return dict;
 }
 

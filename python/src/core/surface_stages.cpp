@@ -84,12 +84,10 @@ evolveLevelSet(const DatasetPtr& dataset,
   });
   const bool is_periodic =
       std::any_of(sides.begin(), sides.end(), [](double side) { return side > 0.0; });
-  const std::string guesses =
-      is_periodic
-          ? ""
-          : tellSmoothedGuesses(evolution.getReport(), *evolution.getSampling());
-  if (!guesses.empty())
-    report["warnings"].cast<py::list>().append(toText(guesses));
+  if (!is_periodic)
+    if (const auto guesses =
+            tellSmoothedGuesses(evolution.getReport(), *evolution.getSampling()))
+      report["warnings"].cast<py::list>().append(toDict(*guesses));
   const LevelSetSummary& summary = evolution.getSummary();
   report["field"] = toText(evolution.getParameters().field);
   report["spacing"] = summary.spacing;

@@ -56,8 +56,8 @@ readMesh(const std::string& path, const MapNumbers& map)
 }
 
 /** With triangles a mesh, else points.
- * \return what the file does not hold of them, one sentence each */
-std::vector<std::string>
+ * \return messages of what the file does not hold of them */
+py::list
 writePoints(const std::string& path,
             const Dataset& points,
             const DenseArray<std::uint32_t>& triangles,
@@ -76,7 +76,7 @@ writePoints(const std::string& path,
     else
       saveMesh(path, points, mesh, options);
   });
-  return describeLosses(path, points);
+  return toDicts(describeLosses(path, points));
 }
 
 /** An array of a lattice as its file holds it. */

@@ -4,10 +4,26 @@
 #include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>
+#include <cmath>
+#include <variant>
 
 namespace pcl_uvol::python {
 
 namespace py = pybind11;
+
+namespace {
+
+/** Whole numbers as Python's int. */
+py::object
+toNumber(double number)
+{
+  constexpr double most_exact = 9007199254740992.0; // 2^53
+  if (number == std::trunc(number) && std::abs(number) <= most_exact)
+    return py::int_(static_cast<long long>(number));
+  return py::float_(number);
+}
+
+} // namespace
 
 py::str
 toText(const std::string& text)
@@ -20,6 +36,43 @@ toText(const std::string& text)
 }
 
 py::dict
+toDict(const Message& message)
+{
+  py::dict values;
+  for (const MessageValue& value : message.values)
+    if (const auto* const word = std::get_if<std::string>(&value.value))
+      values[toText(value.name)] = toText(*word);
+    else
+      values[toText(value.name)] = toNumber(std::get<double>(value.value));
+  py::dict dict;
+  dict["code"] = toText(message.code);
+  dict["text"] = toText(message.text());
+  dict["values"] = values;
+  return dict;
+}
+
+py::list
+toDicts(const std::vector<Message>& messages)
+{
+  py::list dicts;
+  for (const Message& message : messages)
+    dicts.append(toDict(message));
+  return dicts;
+}
+
+Message
+toMessage(const std::string& code, const py::dict& values)
+{
+  Message message(code, {});
+  for (const auto& [name, value] : values)
+    if (py::isinstance<py::str>(value))
+      message.values.emplace_back(name.cast<std::string>(), value.cast<std::string>());
+    else
+      message.values.emplace_back(name.cast<std::string>(), value.cast<double>());
+  return message;
+}
+
+py::dict
 toDict(const Report& report)
 {
   py::dict counts, milliseconds;
@@ -27,13 +80,10 @@ toDict(const Report& report)
     counts[toText(name)] = count;
   for (const auto& [step, spent] : report.milliseconds)
     milliseconds[toText(step)] = spent;
-  py::list warnings;
-  for (const std::string& warning : report.warnings)
-    warnings.append(toText(warning));
   py::dict dict;
   dict["counts"] = counts;
   dict["milliseconds"] = milliseconds;
-  dict["warnings"] = warnings;
+  dict["warnings"] = toDicts(report.warnings);
   return dict;
 }
 

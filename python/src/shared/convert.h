@@ -4,6 +4,7 @@
 
 #include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/map_projection.h>
+#include <pcl_uvol/common/message.h>
 #include <pcl_uvol/common/stage.h>
 
 #include <array>
@@ -12,6 +13,7 @@
 #include <optional>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -82,7 +84,21 @@ toWholeNumbers(const Numbers& numbers)
 pybind11::str
 toText(const std::string& text);
 
-/** \brief {"counts": ..., "milliseconds": ..., "warnings": ...}. */
+/** \brief {"code": ..., "text": ..., "values": {...}}; the text names parameters as
+ * arguments. */
+pybind11::dict
+toDict(const Message& message);
+
+/** \brief toDict() each. */
+pybind11::list
+toDicts(const std::vector<Message>& messages);
+
+/** \brief The other way.
+ * \param values numbers and texts by name */
+Message
+toMessage(const std::string& code, const pybind11::dict& values);
+
+/** \brief {"counts": ..., "milliseconds": ..., "warnings": [...]}. */
 pybind11::dict
 toDict(const Report& report);
 

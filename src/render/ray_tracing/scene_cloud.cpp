@@ -43,8 +43,8 @@ coverCloud(const Dataset& dataset,
   if (splats.cloud.empty())
     throw InvalidArgument("none of the splats in " + quoteText(look.name) +
                           " is usable");
-  for (std::string& warning : own.warnings)
-    warning.insert(0, look.name + ": ");
+  for (Message& warning : own.warnings)
+    warning.about = look.name;
   report.merge(own);
   SceneCloud cloud;
   cloud.splats = pcl::make_shared<pcl::PointCloud<PointSplat>>(std::move(splats.cloud));

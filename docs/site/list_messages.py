@@ -1,0 +1,106 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Writes the table of messages in docs/reference/errors.md from src/common/message_texts.cpp. What its last column says, what
+to do, is kept. Codes that the sources use and the table has not, and codes that nothing uses, are named.
+
+usage: list_messages.py REPOSITORY [--check]     --check: says what would change, with exit code 1, and writes nothing
+"""
+import pathlib
+import re
+import sys
+
+TABLE = "src/common/message_texts.cpp"
+PAGE = "docs/reference/errors.md"
+BEGIN, END = "<!-- messages: made by docs/site/list_messages.py -->\n", "<!-- end of messages -->\n"
+LITERALS = r'((?:"(?:[^"\\\n]|\\.)*"\s*)+)'
+ROW = re.compile(r'\{"([a-z0-9_]+)",\s*' + LITERALS + r"\}")
+USED = re.compile(r'(?:\b(?:warn|Message|InvalidArgument|IOError|ExpressionError|Diverged)\(|push_back\(\{)\s*"([a-z0-9_]+)",\s*[{v]')
+QUOTED = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
+TEXT = "text"  # the row of texts that are in no table
+
+
+def read_rows(root):
+    source = (root / TABLE).read_text()
+    return {code: "".join(QUOTED.findall(literals)).replace('\\"', '"') for code, literals in ROW.findall(source)}
+
+
+def read_sources(root):
+    paths = [p for folder in ("src", "include", "tools", "python") for p in sorted((root / folder).rglob("*"))]
+    return "\n".join(p.read_text() for p in paths if p.suffix in (".cpp", ".h", ".py") and not p.match(TABLE))
+
+
+def inner_end(text, start):
+    """The place after the brace that closes the one before start."""
+    depth = 1
+    for i in range(start, len(text)):
+        depth += {"{": 1, "}": -1}.get(text[i], 0)
+        if depth == 0:
+            return i
+    raise ValueError(text)
+
+
+def split_choice(inner):
+    """The name and the two texts of "name|one|other"."""
+    parts, depth = [""], 0
+    for letter in inner:
+        depth += {"{": 1, "}": -1}.get(letter, 0)
+        if letter == "|" and depth == 0 and len(parts) < 3:
+            parts.append("")
+        else:
+            parts[-1] += letter
+    return parts
+
+
+def readable(text):
+    """A text as a page shows it: values as "...", parameters as options, the second of two texts."""
+    shown, i = "", 0
+    while i < len(text):
+        if text[i] != "{":
+            shown += text[i]
+            i += 1
+            continue
+        end = inner_end(text, i + 1)
+        inner = text[i + 1:end]
+        parts = split_choice(inner)
+        if inner.startswith("-"):
+            shown += f"`{readable(inner)}`"
+        elif len(parts) == 1:
+            shown += "..."
+        else:
+            shown += readable(parts[2] if len(parts) > 2 and parts[2] else parts[1])
+        i = end + 1
+    return shown.replace("|", "\\|")
+
+
+def make_table(rows, advice):
+    lines = ["| code | text | what to do |\n", "|---|---|---|\n"]
+    for code, text in rows.items():
+        if code != TEXT:
+            lines.append(f"| `{code}` | {readable(text)} | {advice.get(code, '')} |\n".replace("|  |", "| |"))
+    return "".join(lines)
+
+
+def main():
+    if len(sys.argv) < 2:
+        sys.exit(__doc__)
+    root = pathlib.Path(sys.argv[1])
+    rows, sources = read_rows(root), read_sources(root)
+    wrong = [f"{TABLE} has no code '{code}'." for code in sorted(set(USED.findall(sources)) - set(rows))]
+    wrong += [f"Nothing tells '{code}' of {TABLE}." for code in rows if code != TEXT and f'"{code}"' not in sources]
+    page = (root / PAGE).read_text()
+    if BEGIN not in page or END not in page:
+        sys.exit(f"{PAGE} has no place for the table: {BEGIN}{END}")
+    before, rest = page.split(BEGIN)
+    old, after = rest.split(END)
+    advice = dict(re.findall(r"^\| `([a-z0-9_]+)` \|.*\| (.*?) ?\|$", old, re.MULTILINE))
+    made = before + BEGIN + make_table(rows, advice) + END + after
+    if made != page:
+        if "--check" in sys.argv:
+            wrong.append(f"{PAGE} is older than {TABLE}: run docs/site/list_messages.py.")
+        else:
+            (root / PAGE).write_text(made)
+    sys.exit("\n".join(wrong) or 0)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The texts of all messages.
+#pragma once
+
+#include <string>
+
+namespace pcl_uvol::detail {
+
+/** \brief A row of the table of messages. In a text stand
+ * - {name}: that value; {name:3}: its first 3 digits, instead of 6
+ * - {name|one|other}: the first if the value is 1, the second if it is not; both may
+ * hold further braces
+ * - {-max-error}, {-mu 0.1}: a parameter and a value of it, as the front end names
+ * them; braces may be in the value */
+struct MessageText {
+  const char* code;
+  const char* text;
+};
+
+/** \brief The row of a code.
+ * \throws InvalidArgument if there is none */
+const MessageText&
+findMessageText(const std::string& code);
+
+} // namespace pcl_uvol::detail
