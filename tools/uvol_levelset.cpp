@@ -24,7 +24,6 @@
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 #include <pcl_uvol/levelset/level_set_evolution.h>
-#include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
 #include <algorithm>
 #include <array>

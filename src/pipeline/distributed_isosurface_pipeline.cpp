@@ -64,17 +64,18 @@ finishIsopoints(const Isopoints& isopoints,
                 Report&& report)
 {
   EdgeEnds ends = findEdgeEnds(isopoints);
-  pcl::PointCloud<PointIso> points;
+  SurfaceTriangles found;
+  found.edges = std::move(ends.edges);
   for (std::size_t i = 0; i < isopoints.size(); ++i)
     for (const GlobalIsopoint& isopoint : isopoints[i])
-      points.push_back(toPointIso(isopoint, parameters.isosurface.isovalues[i]));
+      found.vertices.push_back(
+          toPointIso(isopoint, parameters.isosurface.isovalues[i]));
   Dataset samples = withoutCloud(part.getPoints());
   samples.cloud = fetchPoints(
       part.getPoints().cloud, part.getFirstPoint(), ends.points, communicator, report);
   samples.cloud.header = part.getPoints().cloud.header;
   IsosurfaceResult result = finishIsosurface(samples,
-                                             std::move(points),
-                                             std::move(ends.edges),
+                                             std::move(found),
                                              parameters,
                                              sampling,
                                              communicator,

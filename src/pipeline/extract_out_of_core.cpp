@@ -139,10 +139,12 @@ runPipelineOutOfCore(PointSource& points,
   report.progress = progress;
   auto surface = extractOutOfCore(points, withErrors(resolved), out_of_core, report);
   samples.cloud = std::move(surface.samples);
+  SurfaceTriangles found;
+  found.vertices = std::move(surface.isopoints);
+  found.edges = std::move(surface.edges);
   SelfCommunicator alone;
   IsosurfaceResult result = finishIsosurface(samples,
-                                             std::move(surface.isopoints),
-                                             std::move(surface.edges),
+                                             std::move(found),
                                              resolved,
                                              surface.sampling,
                                              alone,

@@ -8,7 +8,8 @@
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
-#include <pcl_uvol/pipeline/isosurface_pipeline.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>
+#include <pcl_uvol/pipeline/isosurface_result.h>
 
 #include <pcl/PCLPointCloud2.h>
 #include <pcl/point_cloud.h>

@@ -1,43 +1,41 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From isopoints that were extracted elsewhere to a surface with all fields.
+// From isopoints or triangles to a surface with all fields.
 #pragma once
 
+#include "pipeline/guessed_isopoints.h"
 #include <pcl_uvol/distributed/communicator.h>
-#include <pcl_uvol/pipeline/isosurface_pipeline.h>
-
-#include <pcl/point_cloud.h>
+#include <pcl_uvol/mesh/surface_mesh.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>
+#include <pcl_uvol/pipeline/isosurface_result.h>
 
 #include <optional>
 
 namespace pcl_uvol {
 
-/** \brief What a surface stands for, and is said of it where it is a guess. */
-enum class SurfaceRole {
-  Isosurface,
-  ClusterBorder ///< between the samples of a cluster and the others
-};
+namespace detail {
+class FilledGaps;
+}
 
-/** \brief The second half of the way, for isopoints that were extracted elsewhere, out
- * of core or by another process: normals, filters, fields and warnings.
- * \param samples between which the edges lie; with a box that repeats they count from
- * its low corner, and isopoints outside of it are left out
+/** \brief The second half of the way, wherever a surface was extracted: normals,
+ * filters, fields and warnings. \param samples between which the edges lie; with a box
+ * that repeats they count from its low corner, and isopoints outside of it are left out
+ * \param found isopoints, which are vertices without triangles, or a mesh
  * \param parameters with the field and the scale that were taken
  * \param sampling of all samples, if it is known
  * \param communicator of those among which the isopoints of one surface lie: they are
  * warned of together, by all processes
+ * \param threads 0: all cores
  * \param report continued
- * \param isopoints that were extracted
- * \param edges one per isopoint
- * \param threads 0: all cores */
+ * \param gaps of the samples; null if they were not filled */
 IsosurfaceResult
 finishIsosurface(const Dataset& samples,
-                 pcl::PointCloud<PointIso>&& isopoints,
-                 IsoEdges&& edges,
+                 SurfaceTriangles&& found,
                  const IsosurfacePipelineParameters& parameters,
                  const std::optional<SamplingSummary>& sampling,
                  Communicator& communicator,
                  unsigned threads,
                  Report&& report,
-                 SurfaceRole role = SurfaceRole::Isosurface);
+                 SurfaceRole role = SurfaceRole::Isosurface,
+                 const detail::FilledGaps* gaps = nullptr);
 
 } // namespace pcl_uvol

@@ -166,29 +166,26 @@ takesLattice(const IsosurfacePipelineParameters& parameters)
   return returnsToEdges(parameters) && parameters.normals == NormalMethod::Auto;
 }
 
-FilledGaps::FilledGaps(const std::shared_ptr<const Dataset>& samples,
-                       const pcl::Indices& use,
-                       const IsosurfaceParameters& parameters,
-                       unsigned threads,
-                       Report& report)
-    : samples_(samples)
-    , indices_(std::make_shared<pcl::Indices>(use))
+FilledGaps::FilledGaps(PipelineInput& input, unsigned threads, Report& report)
+    : samples_(input.samples)
+    , indices_(std::make_shared<pcl::Indices>(listPoints(input)))
 {
   const StepTimer timer(report, "gaps");
-  checkField(*samples, parameters.field);
+  const IsosurfaceParameters& parameters = input.parameters.isosurface;
+  const CloudView cloud = viewOf(samples_->cloud);
+  checkField(*samples_, parameters.field);
   InterpolationParameters kriging = gapKriging(parameters);
   kriging.extrapolate = kriging.errors = true;
   Report own; // of samples that the extraction tells of as well
   own.progress = report.progress;
-  field_ = std::make_unique<FieldInterpolator>(
-      viewOf(samples->cloud), use, kriging, threads, own);
+  field_ = std::make_unique<FieldInterpolator>(cloud, *indices_, kriging, threads, own);
   takeVariogram();
   kriging.model = InterpolationModel::Nearest;
-  nearest_ = std::make_unique<FieldInterpolator>(
-      viewOf(samples->cloud), use, kriging, threads, own);
+  nearest_ =
+      std::make_unique<FieldInterpolator>(cloud, *indices_, kriging, threads, own);
 
   IsosurfaceExtraction<pcl::PCLPointCloud2> extraction;
-  extraction.setInputCloud({samples, &samples->cloud});
+  extraction.setInputCloud(shareCloud(input));
   extraction.setIndices(indices_);
   extraction.setParameters(parameters);
   extraction.setInterpolation(Interpolation::Linear);
@@ -200,7 +197,7 @@ FilledGaps::FilledGaps(const std::shared_ptr<const Dataset>& samples,
   sampling_ = summarizeSampling(*measured_, threads);
   const auto is_in_gap =
       findSpacing(roots, extraction.getEdges(), parameters, threads, report.progress);
-  filled_ = samples;
+  filled_ = samples_;
   if (summary_.spacing > 0.0) {
     hull_ = std::make_unique<SampleHull>(*measured_,
                                          findReach(sampling_, summary_.spacing) *
@@ -211,6 +208,11 @@ FilledGaps::FilledGaps(const std::shared_ptr<const Dataset>& samples,
   }
   if (has_gaps_ && summary_.predicted == 0)
     report.warn("unfilled_gaps", {{"reason", summary_.unfilled}});
+  input.use =
+      takesLattice(input.parameters) // which adds isopoints between predicted ones
+          ? std::make_shared<pcl::Indices>(listPoints(input))
+          : indices_;
+  input.samples = filled_;
 }
 
 void

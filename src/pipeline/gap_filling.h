@@ -6,6 +6,7 @@
 #include "interpolation/variogram.h"
 #include "neighbors/sample_set.h"
 #include "pipeline/isopoint_choice.h"
+#include "pipeline/pipeline_input.h"
 #include "pipeline/sample_hull.h"
 #include "pipeline/sure_fits.h"
 #include <pcl_uvol/common/cloud_view.h>
@@ -15,7 +16,8 @@
 #include <pcl_uvol/interpolation/field_interpolation.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 #include <pcl_uvol/neighbors/neighbor_graph.h>
-#include <pcl_uvol/pipeline/isosurface_pipeline.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>
+#include <pcl_uvol/pipeline/isosurface_result.h>
 
 #include <pcl/types.h>
 
@@ -70,14 +72,11 @@ takesLattice(const IsosurfacePipelineParameters& parameters);
  * surface, see SureFits. */
 class PCL_UVOL_EXPORTS FilledGaps {
 public:
-  /** \param use the points to take
+  /** \param input with the field and the scale that are taken; gets the samples and
+   * points to take with predicted ones
    * \throws InvalidArgument for a field that is not one of single numbers, and as
    * FieldInterpolation */
-  FilledGaps(const std::shared_ptr<const Dataset>& samples,
-             const pcl::Indices& use,
-             const IsosurfaceParameters& parameters,
-             unsigned threads,
-             Report& report);
+  FilledGaps(PipelineInput& input, unsigned threads, Report& report);
 
   /** \brief All samples; other fields of predicted ones are those of the nearest
    * measured one. */

@@ -8,7 +8,7 @@
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/distributed/communicator.h>
 #include <pcl_uvol/neighbors/neighbor_graph.h>
-#include <pcl_uvol/pipeline/isosurface_pipeline.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -16,6 +16,12 @@
 #include <vector>
 
 namespace pcl_uvol {
+
+/** \brief What a surface stands for, and is said of it where it is a guess. */
+enum class SurfaceRole {
+  Isosurface,
+  ClusterBorder ///< between the samples of a cluster and the others
+};
 
 /** \brief How many isopoints rest on what, of those whose support is known. */
 struct SurfaceGrounds {

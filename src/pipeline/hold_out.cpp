@@ -246,42 +246,35 @@ selectMeasured(const CloudView& cloud,
 } // namespace
 
 std::vector<std::vector<HeldOutSample>>
-holdOut(const std::shared_ptr<const Dataset>& samples,
-        const pcl::Indices& use,
-        const IsosurfacePipelineParameters& parameters,
+holdOut(const PipelineInput& input,
         const Folds& folds,
+        const ExtractPart& extract,
         unsigned threads,
         Report& report)
 {
-  const CloudView cloud = viewOf(samples->cloud);
-  const IsosurfaceParameters& isosurface = parameters.isosurface;
+  const CloudView cloud = viewOf(input.samples->cloud);
+  const IsosurfaceParameters& isosurface = input.parameters.isosurface;
   const ScalarField field(cloud.fields, isosurface.field);
   const ValueFrame frame = findValueRange(cloud, field, threads).findFrame();
   const std::vector<float> values = readValues(cloud, field, frame, threads);
-  const pcl::Indices measured = selectMeasured(cloud, values, use);
+  const pcl::Indices measured = selectMeasured(cloud, values, listPoints(input));
   const Position scale = toPosition(isosurface.scale);
-  IsosurfacePipelineParameters of_rest = parameters;
+  IsosurfacePipelineParameters of_rest = input.parameters;
   of_rest.automatic_scale = false;
   of_rest.validation = {};
   of_rest.mesh.reset();
-  IsosurfacePipeline pipeline;
-  pipeline.setInput(samples);
-  pipeline.setParameters(of_rest);
-  pipeline.setNumberOfThreads(threads);
-
   std::vector<std::vector<HeldOutSample>> told(isosurface.isovalues.size());
   StepTimer step(report, "validation", folds.size());
   ProgressCallback tell; // steps of a fold count as none of their own
   ProgressReminder reminder(report.progress, "validation");
   if (report.progress)
     tell = [&](const std::string&, double) { reminder.remind(); };
-  pipeline.setProgressCallback(tell);
   for (std::size_t fold = 0; fold < folds.size(); ++fold) {
     const Division division = divide(measured, folds, fold);
     if (division.left_out.empty())
       continue;
-    pipeline.setIndices(std::make_shared<pcl::Indices>(division.rest));
-    const auto surfaces = splitSurface(pipeline.run());
+    const auto surfaces = splitSurface(
+        extract(of_rest, std::make_shared<pcl::Indices>(division.rest), tell));
     const auto interpolated =
         interpolateLeftOut(cloud, division, isosurface, threads, tell);
     const Remaining remaining(cloud, division, scale, threads, tell);
@@ -358,6 +351,19 @@ scoreHeldOut(const std::vector<HeldOutSample>& samples)
   score.side_everywhere = share(side_everywhere, score.tested);
   score.side_beyond_error = share(sure, score.beyond_error);
   return score;
+}
+
+std::vector<ValidationScore>
+scoreHeldOut(const PipelineInput& input,
+             const Folds& folds,
+             const ExtractPart& extract,
+             unsigned threads,
+             Report& report)
+{
+  std::vector<ValidationScore> scores;
+  for (const auto& of_isovalue : holdOut(input, folds, extract, threads, report))
+    scores.push_back(scoreHeldOut(of_isovalue));
+  return scores;
 }
 
 /** Samples beyond the error, and their share on the right side, below which errors

@@ -3,15 +3,16 @@
 // from the others, and asked on which side of it each of them lies.
 #pragma once
 
-#include <pcl_uvol/common/dataset.h>
+#include "pipeline/pipeline_input.h"
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/interpolation/cross_validation.h>
-#include <pcl_uvol/pipeline/isosurface_pipeline.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>
+#include <pcl_uvol/pipeline/isosurface_result.h>
 
 #include <pcl/types.h>
 
 #include <cstdint>
-#include <memory>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -34,22 +35,33 @@ struct HeldOutSample {
   float error = 0.0f;    ///< of that isopoint
 };
 
+/** \brief Extracts the surface of some of the samples, as IsosurfacePipeline does. */
+using ExtractPart = std::function<IsosurfaceResult(const IsosurfacePipelineParameters&,
+                                                   const pcl::IndicesPtr& use,
+                                                   const ProgressCallback&)>;
+
 /** \brief Leave out the folds one after the other.
- * \param use points to take part, with those without a value left aside
- * \param parameters with the field and the scale that are meant
- * \return per isovalue the samples, fold by fold
+ * \param input points to take part, with those without a value left aside, and the
+ * field and the scale that are meant \return per isovalue the samples, fold by fold
  * \throws InvalidArgument for folds that leave no samples, and as IsosurfacePipeline */
 PCL_UVOL_EXPORTS std::vector<std::vector<HeldOutSample>>
-holdOut(const std::shared_ptr<const Dataset>& samples,
-        const pcl::Indices& use,
-        const IsosurfacePipelineParameters& parameters,
+holdOut(const PipelineInput& input,
         const Folds& folds,
+        const ExtractPart& extract,
         unsigned threads,
         Report& report);
 
 /** \brief Shares of samples, see ValidationScore. */
 PCL_UVOL_EXPORTS ValidationScore
 scoreHeldOut(const std::vector<HeldOutSample>& samples);
+
+/** \brief As holdOut(), one score per isovalue. */
+std::vector<ValidationScore>
+scoreHeldOut(const PipelineInput& input,
+             const Folds& folds,
+             const ExtractPart& extract,
+             unsigned threads,
+             Report& report);
 
 /** \brief Say so where a surface tells the side of samples that were left out worse
  * than always saying the same does, or than the nearest sample does by more than the

@@ -2,11 +2,10 @@
 // Which isopoints a pipeline keeps, and what it says of them.
 #pragma once
 
-#include "pipeline/finish_isosurface.h"
 #include "pipeline/guessed_isopoints.h"
 #include "pipeline/isopoint_choice.h"
 #include "pipeline/known_isopoints.h"
-#include <pcl_uvol/pipeline/isosurface_pipeline.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>
 
 #include <optional>
 

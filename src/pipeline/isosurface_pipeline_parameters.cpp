@@ -4,7 +4,7 @@
 #include "neighbors/periodic_box.h"
 #include "pipeline/periodic_surface.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/pipeline/isosurface_pipeline.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>
 
 namespace pcl_uvol {
 

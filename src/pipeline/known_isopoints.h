@@ -7,7 +7,7 @@
 #include <pcl_uvol/common/point_types.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 #include <pcl_uvol/neighbors/neighbor_graph.h>
-#include <pcl_uvol/pipeline/isosurface_pipeline.h>
+#include <pcl_uvol/pipeline/isosurface_result.h>
 
 #include <Eigen/Core>
 

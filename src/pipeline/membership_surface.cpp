@@ -3,7 +3,7 @@
 
 #include "pipeline/finish_isosurface.h"
 #include <pcl_uvol/common/map_projection.h>
-#include <pcl_uvol/pipeline/isosurface_pipeline.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>
 
 #include <utility>
 
@@ -35,14 +35,14 @@ extractMembershipSurface(const Dataset& samples,
   extraction.setParameters(parameters.isosurface);
   extraction.setNumberOfThreads(threads);
   extraction.setProgressCallback(report.progress);
-  pcl::PointCloud<PointIso> isopoints;
-  extraction.extract(isopoints);
+  SurfaceTriangles found;
+  extraction.extract(found.vertices);
+  found.edges = extraction.getEdges();
   report.merge(extraction.getReport());
   SelfCommunicator alone;
   // Without the field, whose value is the same everywhere.
   auto result = finishIsosurface(turned,
-                                 std::move(isopoints),
-                                 IsoEdges(extraction.getEdges()),
+                                 std::move(found),
                                  parameters,
                                  std::nullopt,
                                  alone,

@@ -8,7 +8,6 @@
 #include "pipeline/periodic_surface.h"
 #include "surface/memory_need.h"
 #include <pcl_uvol/levelset/level_set_evolution.h>
-#include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
 #include <algorithm>
 #include <cmath>
@@ -105,19 +104,18 @@ addMemoryNeed(const IsosurfacePipelineParameters& parameters,
 }
 
 double
-IsosurfacePipeline::estimateMemory() const
+estimatePeak(const std::shared_ptr<const Dataset>& samples,
+             const IsosurfacePipelineParameters& parameters,
+             unsigned threads)
 {
-  IsosurfacePipelineParameters parameters = parameters_;
-  parameters.isosurface = resolveParameters();
-  const CloudView view = viewOf(samples_->cloud);
-  const auto& cloud = samples_->cloud;
+  const auto& cloud = samples->cloud;
   MemoryForecast forecast(0.0);
   addMemoryNeed(parameters,
                 static_cast<double>(cloud.width) * static_cast<double>(cloud.height),
                 static_cast<double>(cloud.point_step),
-                estimateSurfaces(view, parameters.isosurface, threads_),
+                estimateSurfaces(viewOf(cloud), parameters.isosurface, threads),
                 parameters.fill_gaps
-                    ? detail::estimateGapNodes(samples_, parameters, threads_)
+                    ? detail::estimateGapNodes(samples, parameters, threads)
                     : 0.0,
                 forecast);
   return forecast.getPeak();

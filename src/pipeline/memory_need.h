@@ -3,9 +3,11 @@
 #pragma once
 
 #include "isosurface/memory_need.h"
+#include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/pipeline/isosurface_pipeline.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>
 
+#include <memory>
 #include <vector>
 
 namespace pcl_uvol {
@@ -22,5 +24,12 @@ addMemoryNeed(const IsosurfacePipelineParameters& parameters,
               std::vector<SurfaceSize> surfaces,
               double gap_nodes,
               MemoryForecast& forecast);
+
+/** \brief See IsosurfacePipeline::estimateMemory().
+ * \param parameters with the field and the scale that are taken */
+double
+estimatePeak(const std::shared_ptr<const Dataset>& samples,
+             const IsosurfacePipelineParameters& parameters,
+             unsigned threads);
 
 } // namespace pcl_uvol

@@ -7,7 +7,8 @@
 #include "neighbors/periodic_box.h"
 #include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/distributed/communicator.h>
-#include <pcl_uvol/pipeline/isosurface_pipeline.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>
+#include <pcl_uvol/pipeline/isosurface_result.h>
 
 #include <cstdint>
 #include <memory>

@@ -3,7 +3,8 @@
 #pragma once
 
 #include "neighbors/periodic_box.h"
-#include <pcl_uvol/pipeline/isosurface_pipeline.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>
+#include <pcl_uvol/pipeline/isosurface_result.h>
 
 namespace pcl_uvol::detail {
 

@@ -5,6 +5,7 @@
 #include "common/scalar_field.h"
 #include "pipeline/periodic_mesh.h"
 #include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/map_projection.h>
 
 #include <algorithm>
 #include <array>
@@ -173,38 +174,42 @@ returnPoints(const PeriodicBox& cut,
   result.surface.origin = origin;
 }
 
-IsosurfaceResult
-IsosurfacePipeline::runInBox(IsosurfacePipelineParameters parameters)
+RepeatedBox::RepeatedBox(PipelineInput& input, unsigned threads, Report& report)
 {
-  parameters.automatic_scale = false; // it is filled in
-  const PeriodicBox box = findPeriodicBox(*samples_, sidesOf(parameters), report_);
-  const auto images = std::make_shared<PeriodicSamples>(
-      makeImages(*samples_, indices_, box, parameters, threads_, report_));
+  IsosurfacePipelineParameters& parameters = input.parameters;
+  if (!isPeriodic(sidesOf(parameters)))
+    return;
+  samples_ = input.samples;
+  box_ = findPeriodicBox(*samples_, sidesOf(parameters), report);
+  images_ = std::make_shared<PeriodicSamples>(
+      makeImages(*samples_, input.use, box_, parameters, threads, report));
   // Images go beyond all faces: caps would close the surface where it is cut.
   if (parameters.mesh && (parameters.periodic > 0.0).all())
     parameters.mesh->open = true;
-  IsosurfacePipeline inner;
-  inner.setInput(std::shared_ptr<const Dataset>(images, &images->samples));
-  inner.setIndices(indicesWithImages(*images, indices_));
-  inner.setParameters(parameters);
-  inner.setNumberOfThreads(threads_);
-  inner.report_ = std::move(report_);
-  IsosurfaceResult result = inner.runOnSamples(parameters);
-  result.report.setCount("images", images->image_of.size());
+  input.samples = {images_, &images_->samples};
+  input.use = indicesWithImages(*images_, input.use);
+}
+
+void
+RepeatedBox::leave(const IsosurfacePipelineParameters& parameters,
+                   IsosurfaceResult& result) const
+{
+  if (!images_)
+    return;
+  result.report.setCount("images", images_->image_of.size());
   if (result.report.getCount("duplicates") == 0)
-    leaveOutImages(images->image_of.size(), result.report);
+    leaveOutImages(images_->image_of.size(), result.report);
   else
-    leaveOutImages(countPlaces(listPlaces(images->samples, images->countOwn())),
+    leaveOutImages(countPlaces(listPlaces(images_->samples, images_->countOwn())),
                    result.report);
-  returnToBox(*samples_, *images, box, parameters.periodic_mesh, result);
+  returnToBox(*samples_, *images_, box_, parameters.periodic_mesh, result);
   for (std::size_t i = 0; parameters.mesh && i < result.isopoints.size(); ++i) {
     result.isopoints[i] = 0;
     for (const SurfacePiece& piece : result.pieces)
       if (piece.isovalue == parameters.isosurface.isovalues[i])
         result.isopoints[i] += piece.vertices;
   }
-  report_ = result.report;
-  return result;
+  setGlobeFields(result.surface);
 }
 
 } // namespace pcl_uvol

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The box that IsosurfacePipeline's samples repeat in.
+// The box that a pipeline's samples repeat in.
 #pragma once
 
 #include "neighbors/periodic_box.h"
-#include <pcl_uvol/pipeline/isosurface_pipeline.h>
+#include "pipeline/pipeline_input.h"
+#include <pcl_uvol/pipeline/isosurface_result.h>
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -62,5 +64,25 @@ countPlaces(std::vector<ImagePlace> places);
  * \param places that differ, of as many images as the report has */
 void
 leaveOutImages(std::uint64_t places, Report& report);
+
+/** \brief Adds images of samples to a pipeline whose box repeats, and brings its
+ * surface back into the box. */
+class RepeatedBox {
+public:
+  /** \param input with the field and the scale that are taken; gets samples with
+   * images, if its box repeats \param report gets what findPeriodicBox() and
+   * addPeriodicImages() tell */
+  RepeatedBox(PipelineInput& input, unsigned threads, Report& report);
+
+  /** \brief Bring the surface back into the box, and leave images out of the counts.
+   * \param parameters that it was made by */
+  void
+  leave(const IsosurfacePipelineParameters& parameters, IsosurfaceResult& result) const;
+
+private:
+  std::shared_ptr<const Dataset> samples_; ///< as they came
+  PeriodicBox box_;
+  std::shared_ptr<PeriodicSamples> images_; ///< null: no box repeats
+};
 
 } // namespace pcl_uvol

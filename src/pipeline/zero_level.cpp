@@ -4,7 +4,7 @@
 #include "levelset/phi_cloud.h"
 #include "pipeline/finish_isosurface.h"
 #include <pcl_uvol/levelset/level_set_evolution.h>
-#include <pcl_uvol/pipeline/isosurface_pipeline.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>
 
 #include <algorithm>
 #include <cmath>
@@ -66,55 +66,42 @@ forgetIfVanished(const pcl::PointCloud<PointIso>& isopoints,
 } // namespace
 
 SurfaceTriangles
-meshZeroLevel(const CloudView& samples,
-              const std::vector<float>& phi,
-              const std::vector<float>& deviations,
-              const IsosurfaceParameters& parameters,
-              const MeshingParameters& meshing,
-              unsigned threads,
-              Report& report)
-{
-  const auto cloud = makePhiCloud(samples, phi);
-  const CloudView view = viewOf(cloud);
-  pcl::Indices all(view.count);
-  std::iota(all.begin(), all.end(), 0);
-  SurfaceMeshParameters of_phi{parameters, meshing};
-  of_phi.isosurface.field = "phi";
-  of_phi.isosurface.isovalues = {0.0};
-  const std::size_t told = report.warnings.size();
-  SurfaceTriangles found =
-      detail::makeSurfaceMesh(view, all, of_phi, parameters.isovalues, threads, report);
-  forgetIfVanished(found.vertices, told, report);
-  addDeviations(deviations, found.edges, parameters.scale, found.vertices);
-  return found;
-}
-
-void
 extractZeroLevel(const CloudView& samples,
                  const std::vector<float>& phi,
                  const std::vector<float>& deviations,
                  const IsosurfaceParameters& parameters,
+                 const std::optional<MeshingParameters>& mesh,
                  unsigned threads,
-                 pcl::PointCloud<PointIso>& isopoints,
-                 IsoEdges& edges,
                  Report& report)
 {
   const auto cloud = makePhiCloud(samples, phi);
-  IsosurfaceExtraction<pcl::PCLPointCloud2> extraction;
-  extraction.setInputCloud(pcl::PCLPointCloud2::ConstPtr(&cloud, [](const void*) {}));
-  extraction.setParameters(parameters);
-  extraction.setScalarField("phi");
-  extraction.setIsoValue(0.0);
-  extraction.setNumberOfThreads(threads);
-  extraction.setProgressCallback(report.progress);
-  extraction.extract(isopoints);
+  IsosurfaceParameters of_phi = parameters;
+  of_phi.field = "phi";
+  of_phi.isovalues = {0.0};
   const std::size_t told = report.warnings.size();
-  report.merge(extraction.getReport());
-  forgetIfVanished(isopoints, told, report);
-  edges = extraction.getEdges();
-  addDeviations(deviations, edges, parameters.scale, isopoints);
-  for (PointIso& point : isopoints)
-    point.isovalue = static_cast<float>(parameters.isovalues.front());
+  SurfaceTriangles found;
+  if (mesh) {
+    const CloudView view = viewOf(cloud);
+    pcl::Indices all(view.count);
+    std::iota(all.begin(), all.end(), 0);
+    found = detail::makeSurfaceMesh(
+        view, all, {of_phi, *mesh}, parameters.isovalues, threads, report);
+  }
+  else {
+    IsosurfaceExtraction<pcl::PCLPointCloud2> extraction;
+    extraction.setInputCloud(pcl::PCLPointCloud2::ConstPtr(&cloud, [](const void*) {}));
+    extraction.setParameters(of_phi);
+    extraction.setNumberOfThreads(threads);
+    extraction.setProgressCallback(report.progress);
+    extraction.extract(found.vertices);
+    report.merge(extraction.getReport());
+    found.edges = extraction.getEdges();
+    for (PointIso& point : found.vertices)
+      point.isovalue = static_cast<float>(parameters.isovalues.front());
+  }
+  forgetIfVanished(found.vertices, told, report);
+  addDeviations(deviations, found.edges, parameters.scale, found.vertices);
+  return found;
 }
 
 Dataset
@@ -130,21 +117,12 @@ extractSnapshot(const Dataset& samples,
   how.isosurface.scale = parameters.scale;
   how.isosurface.interpolation = Interpolation::Fit; // the level set fills gaps
   how.normals = NormalMethod::Fit;
-  pcl::PointCloud<PointIso> isopoints;
-  IsoEdges edges;
   Report report;
-  extractZeroLevel(viewOf(samples.cloud),
-                   phi,
-                   {},
-                   how.isosurface,
-                   threads,
-                   isopoints,
-                   edges,
-                   report);
+  SurfaceTriangles found = extractZeroLevel(
+      viewOf(samples.cloud), phi, {}, how.isosurface, std::nullopt, threads, report);
   SelfCommunicator alone;
   return finishIsosurface(samples,
-                          std::move(isopoints),
-                          std::move(edges),
+                          std::move(found),
                           how,
                           std::nullopt,
                           alone,

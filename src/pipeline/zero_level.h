@@ -9,40 +9,29 @@
 #include <pcl_uvol/levelset/level_set_parameters.h>
 #include <pcl_uvol/mesh/surface_mesh.h>
 
+#include <optional>
 #include <vector>
 
 namespace pcl_uvol {
 
 /** \brief The zero level of a level-set function of samples.
+ * \param samples as LevelSetEvolution got them
  * \param phi one per point of the cloud, see LevelSetEvolution
  * \param deviations one per point, see LevelSetEvolution::getDeviations(); without any,
  * errors are NaN: fits to phi know nothing of what became of the samples' noise
- * \param parameters of the isosurface that phi stands for; isopoints have its first
+ * \param parameters of the isosurface that phi stands for; the surface has its first
  * isovalue
- * \param report gets the counts and times of IsosurfaceExtraction
- * \param samples as LevelSetEvolution got them
+ * \param mesh none: isopoints without triangles
  * \param threads 0: all cores
- * \param isopoints what is found
- * \param edges one per isopoint */
-PCL_UVOL_EXPORTS void
+ * \param report gets the counts and times of IsosurfaceExtraction or SurfaceMesh */
+PCL_UVOL_EXPORTS SurfaceTriangles
 extractZeroLevel(const CloudView& samples,
                  const std::vector<float>& phi,
                  const std::vector<float>& deviations,
                  const IsosurfaceParameters& parameters,
+                 const std::optional<MeshingParameters>& mesh,
                  unsigned threads,
-                 pcl::PointCloud<PointIso>& isopoints,
-                 IsoEdges& edges,
                  Report& report);
-
-/** \brief As extractZeroLevel(), a mesh. */
-SurfaceTriangles
-meshZeroLevel(const CloudView& samples,
-              const std::vector<float>& phi,
-              const std::vector<float>& deviations,
-              const IsosurfaceParameters& parameters,
-              const MeshingParameters& meshing,
-              unsigned threads,
-              Report& report);
 
 /** \brief The zero level of a level set that is not done, with all fields of the
  * samples. Errors are NaN: it is not yet where it will be.

@@ -137,9 +137,16 @@ printCase(const DataCase& data, std::size_t folds_at_most)
   parameters.validation.by =
       data.by == "random" ? ValidateBy::Random : ValidateBy::Field;
   parameters.validation.field = data.by;
-  pcl::Indices all(cloud.count);
-  std::iota(all.begin(), all.end(), 0);
   const auto folds = pcl_uvol::makeFolds(cloud, parameters.validation, 0);
+  pcl_uvol::IsosurfacePipeline pipeline;
+  pipeline.setInput(samples);
+  const auto extract = [&](const pcl_uvol::IsosurfacePipelineParameters& of_part,
+                           const pcl::IndicesPtr& use,
+                           const pcl_uvol::ProgressCallback&) {
+    pipeline.setParameters(of_part);
+    pipeline.setIndices(use);
+    return pipeline.run();
+  };
   DelaunayClass delaunay(*samples, parameters, folds);
   std::vector<bool> by_delaunay;
   const Eigen::Array3f& scale = parameters.isosurface.scale;
@@ -159,7 +166,8 @@ printCase(const DataCase& data, std::size_t folds_at_most)
     parameters.fill_gaps = method.fill_gaps;
     pcl_uvol::Report report;
     const auto told =
-        pcl_uvol::holdOut(samples, all, parameters, folds, 0, report).front();
+        pcl_uvol::holdOut({samples, nullptr, parameters}, folds, extract, 0, report)
+            .front();
     const auto score = pcl_uvol::scoreHeldOut(told);
     const bool is_first = by_delaunay.empty();
     if (is_first)

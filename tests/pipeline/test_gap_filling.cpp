@@ -458,18 +458,17 @@ TEST(GapFilling, LeavesDenseSamplesAsTheyAre)
 TEST(GapFilling, PredictsNothingBeyondTheRange)
 {
   const auto samples = makeProfiles(12);
-  pcl::Indices all(samples->cloud.width);
-  std::iota(all.begin(), all.end(), 0);
+  const std::size_t measured = samples->cloud.width;
+  PipelineInput input{samples, nullptr, makeParameters(true)};
   Report report;
-  const detail::FilledGaps gaps(
-      samples, all, makeParameters(true).isosurface, 0, report);
+  const detail::FilledGaps gaps(input, 0, report);
   const CloudView cloud = viewOf(gaps.getSamples()->cloud);
-  ASSERT_EQ(all.size() + gaps.getSummary().predicted, cloud.count);
+  ASSERT_EQ(measured + gaps.getSummary().predicted, cloud.count);
   ASSERT_EQ(cloud.count, gaps.getIndices()->size());
   ASSERT_GT(gaps.getSummary().predicted, 0u);
-  for (std::size_t i = all.size(); i < cloud.count; ++i) {
+  for (std::size_t i = measured; i < cloud.count; ++i) {
     float nearest = INFINITY;
-    for (std::size_t j = 0; j < all.size(); ++j)
+    for (std::size_t j = 0; j < measured; ++j)
       nearest = std::min(nearest,
                          (Eigen::Map<const Eigen::Vector3f>(cloud.xyz(i)) -
                           Eigen::Map<const Eigen::Vector3f>(cloud.xyz(j)))

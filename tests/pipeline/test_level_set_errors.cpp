@@ -129,12 +129,12 @@ TEST(LevelSetErrors, AreUnknownWithoutDeviations)
   std::vector<float> phi;
   for (const auto& point : *noisy.cloud)
     phi.push_back(point.intensity);
-  Surface surface;
-  IsoEdges edges;
   Report report;
   IsosurfaceParameters parameters;
   parameters.isovalues = {0.0};
-  extractZeroLevel(viewOf(cloud), phi, {}, parameters, 1, surface, edges, report);
+  const auto surface =
+      extractZeroLevel(viewOf(cloud), phi, {}, parameters, std::nullopt, 1, report)
+          .vertices;
   ASSERT_GT(surface.size(), 1000u);
   for (const PointIso& point : surface)
     EXPECT_TRUE(std::isnan(point.error));

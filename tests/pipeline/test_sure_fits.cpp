@@ -211,16 +211,13 @@ struct Predicted {
 Predicted
 predict(const pcl::PointCloud<pcl::PointXYZI>& cloud)
 {
-  const auto samples = toDataset(cloud);
-  pcl::Indices all(cloud.size());
-  std::iota(all.begin(), all.end(), 0);
+  PipelineInput input{toDataset(cloud), nullptr, makeParameters(0.0, true)};
   Report report;
-  const detail::FilledGaps gaps(
-      samples, all, makeParameters(0.0, true).isosurface, 0, report);
+  const detail::FilledGaps gaps(input, 0, report);
   const CloudView filled = viewOf(gaps.getSamples()->cloud);
-  Predicted predicted{filled.count - all.size(),
+  Predicted predicted{filled.count - cloud.size(),
                       std::numeric_limits<double>::infinity()};
-  for (std::size_t i = all.size(); i < filled.count; ++i)
+  for (std::size_t i = cloud.size(); i < filled.count; ++i)
     predicted.least_x =
         std::min(predicted.least_x, static_cast<double>(filled.xyz(i)[0]));
   return predicted;

@@ -232,15 +232,20 @@ TEST(Validation, KnowsThePartOfSamplesNearTheSurface)
   parameters.validation.field = "layer";
   parameters.isosurface.interpolation = Interpolation::Linear;
   Report report;
-  pcl::Indices inner; // the border has other spacings
-  for (int i = 0; i < static_cast<int>(cloud.size()); ++i)
-    inner.push_back(i);
-  const auto told = holdOut(samples,
-                            inner,
-                            parameters,
-                            makeFolds(viewOf(samples->cloud), parameters.validation, 0),
-                            0,
-                            report);
+  const auto told = holdOut(
+      {samples, nullptr, parameters},
+      makeFolds(viewOf(samples->cloud), parameters.validation, 0),
+      [&](const IsosurfacePipelineParameters& of_part,
+          const pcl::IndicesPtr& use,
+          const ProgressCallback&) {
+        IsosurfacePipeline pipeline;
+        pipeline.setInput(samples);
+        pipeline.setParameters(of_part);
+        pipeline.setIndices(use);
+        return pipeline.run();
+      },
+      0,
+      report);
   for (const HeldOutSample& sample : told.at(0)) {
     const auto& place = cloud[sample.point];
     if (std::min(place.x, place.y) < 3.0f || std::max(place.x, place.y) > 8.0f)

@@ -5,7 +5,7 @@
 #include "shared/options.h"
 #include "shared/point_files.h"
 #include "shared/scale_option.h"
-#include <pcl_uvol/pipeline/isosurface_pipeline.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>
 
 #include <limits>
 #include <sstream>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "shared/options.h"
-#include <pcl_uvol/pipeline/isosurface_pipeline.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>
 
 #include <cstdint>
 #include <optional>

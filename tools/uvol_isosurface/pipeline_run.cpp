@@ -11,6 +11,7 @@
 #include "shared/point_files.h"
 #include "uvol_isosurface/input_samples.h"
 #include <pcl_uvol/io/dataset.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
 #include <memory>
 #include <optional>

@@ -5,7 +5,7 @@
 #include "shared/facts.h"
 #include "shared/memory_guard.h"
 #include "uvol_isosurface/pipeline_options.h"
-#include <pcl_uvol/pipeline/isosurface_pipeline.h>
+#include <pcl_uvol/pipeline/isosurface_result.h>
 
 namespace uvol_tools {
 

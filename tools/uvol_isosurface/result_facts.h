@@ -3,7 +3,8 @@
 #pragma once
 
 #include "shared/facts.h"
-#include <pcl_uvol/pipeline/isosurface_pipeline.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>
+#include <pcl_uvol/pipeline/isosurface_result.h>
 
 namespace uvol_tools {
 

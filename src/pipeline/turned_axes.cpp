@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/turned_axes.h"
+
+#include "levelset/level_set_input.h"
+#include <pcl_uvol/common/map_projection.h>
+
+#include <memory>
+
+namespace pcl_uvol {
+
+TurnedAxes::TurnedAxes(PipelineInput& input)
+    : axes_(input.parameters.rotation)
+{
+  if (!axes_.areTurned())
+    return;
+  const auto turned = std::make_shared<Dataset>(*input.samples);
+  axes_.turn(turned->cloud);
+  input.samples = turned;
+  input.parameters.rotation.setZero();
+  LevelSetParameters& level_set = input.parameters.level_set;
+  level_set.initial = turnShape(level_set.initial, axes_);
+}
+
+void
+TurnedAxes::leave(IsosurfaceResult& result) const
+{
+  if (!axes_.areTurned())
+    return;
+  axes_.turnBack(result.surface.cloud);
+  setGlobeFields(result.surface);
+}
+
+} // namespace pcl_uvol
