@@ -3,7 +3,8 @@
 """Runs every tool with -json, by the commands of tests/bytes and some more, and holds the reports against the schema
 that the documentation has.
 
-usage: check_reports.py BIN_FOLDER REPOSITORY
+usage: check_reports.py BIN_FOLDER REPOSITORY [FOLDER]
+FOLDER is what tests/bytes/run.sh -keep has left: its commands are not run again.
 """
 import json
 import os
@@ -25,15 +26,9 @@ uvol_info holes.csv -out sampling.csv
 """
 
 
-def run(command, bin_folder, folder):
-    """The reports of a command: one of each file that it tells of."""
-    tool, *words = command.split()
-    environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
-    result = subprocess.run([bin_folder / tool, *words, "-json"], cwd=folder, env=environment, capture_output=True,
-                            text=True)
-    if result.returncode != 0:
-        sys.exit(f"{command} failed: {result.stderr}")
-    reports, rest = [], result.stdout.strip()
+def split(printed):
+    """The reports that a command has printed: one of each file that it tells of."""
+    reports, rest = [], printed.strip()
     while rest:
         report, end = json.JSONDecoder().raw_decode(rest)
         reports.append(report)
@@ -41,8 +36,18 @@ def run(command, bin_folder, folder):
     return reports
 
 
+def run(command, bin_folder, folder):
+    tool, *words = command.split()
+    environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+    result = subprocess.run([bin_folder / tool, *words, "-json"], cwd=folder, env=environment, capture_output=True,
+                            text=True)
+    if result.returncode != 0:
+        sys.exit(f"{command} failed: {result.stderr}")
+    return split(result.stdout)
+
+
 def main():
-    if len(sys.argv) != 3:
+    if len(sys.argv) not in (3, 4):
         sys.exit(__doc__)
     try:
         import jsonschema
@@ -53,20 +58,26 @@ def main():
     schema = json.loads((root / "docs/reference/report.schema.json").read_text())
     jsonschema.Draft202012Validator.check_schema(schema)
     validator = jsonschema.Draft202012Validator(schema)
-    commands = (root / "tests/bytes/commands.txt").read_text() + FURTHER
-    commands = [line for line in commands.splitlines() if line and not line.startswith("#")]
     failures, seen = [], set()
-    with tempfile.TemporaryDirectory() as folder:
-        for command in commands:
-            if not (bin_folder / command.split()[0]).exists():
-                continue  # a tool that is not built
-            for report in run(command, bin_folder, folder):
-                seen.update(report)
-                for error in validator.iter_errors(report):
-                    place = ".".join(str(part) for part in error.path)
-                    failures.append(f"{command}: {place or 'the report'}: {error.message[:300]}")
-                if not list(validator.iter_errors(dict(report, unknown=1))):
-                    failures.append(f"{command}: the schema takes keys that nobody knows.")
+
+    def check(command, report):
+        seen.update(report)
+        for error in validator.iter_errors(report):
+            place = ".".join(str(part) for part in error.path)
+            failures.append(f"{command}: {place or 'the report'}: {error.message[:300]}")
+        if not list(validator.iter_errors(dict(report, unknown=1))):
+            failures.append(f"{command}: the schema takes keys that nobody knows.")
+
+    with tempfile.TemporaryDirectory() as new:
+        kept = sys.argv[3] if len(sys.argv) > 3 else ""
+        for path in sorted(pathlib.Path(kept + ".reports").glob("*")):
+            for report in split(path.read_text()):
+                check(path.name, report)
+        commands = FURTHER if kept else (root / "tests/bytes/commands.txt").read_text() + FURTHER
+        for command in commands.splitlines():
+            if command and not command.startswith("#") and (bin_folder / command.split()[0]).exists():
+                for report in run(command, bin_folder, kept or new):
+                    check(command, report)
     unseen = set(schema["properties"]) - seen - {"files", "further_numbers_per_point"}
     failures += [f"No command here prints the key {key} of the schema." for key in sorted(unseen)]
     sys.exit("\n".join(failures) or 0)
