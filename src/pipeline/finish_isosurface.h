@@ -17,8 +17,9 @@ class FilledGaps;
 }
 
 /** \brief The second half of the way, wherever a surface was extracted: normals,
- * filters, fields and warnings. \param samples between which the edges lie; with a box
- * that repeats they count from its low corner, and isopoints outside of it are left out
+ * filters, fields and warnings.
+ * \param samples between which the edges lie; with a box that repeats they count from
+ * its low corner, and isopoints outside of it are left out
  * \param found isopoints, which are vertices without triangles, or a mesh
  * \param parameters with the field and the scale that were taken
  * \param sampling of all samples, if it is known

@@ -42,7 +42,8 @@ using ExtractPart = std::function<IsosurfaceResult(const IsosurfacePipelineParam
 
 /** \brief Leave out the folds one after the other.
  * \param input points to take part, with those without a value left aside, and the
- * field and the scale that are meant \return per isovalue the samples, fold by fold
+ * field and the scale that are meant
+ * \return per isovalue the samples, fold by fold
  * \throws InvalidArgument for folds that leave no samples, and as IsosurfacePipeline */
 PCL_UVOL_EXPORTS std::vector<std::vector<HeldOutSample>>
 holdOut(const PipelineInput& input,

@@ -70,8 +70,8 @@ leaveOutImages(std::uint64_t places, Report& report);
 class RepeatedBox {
 public:
   /** \param input with the field and the scale that are taken; gets samples with
-   * images, if its box repeats \param report gets what findPeriodicBox() and
-   * addPeriodicImages() tell */
+   * images, if its box repeats
+   * \param report gets what findPeriodicBox() and addPeriodicImages() tell */
   RepeatedBox(PipelineInput& input, unsigned threads, Report& report);
 
   /** \brief Bring the surface back into the box, and leave images out of the counts.

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <pcl_uvol/common/dataset.h>
+#include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/distributed/communicator.h>
