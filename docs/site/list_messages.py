@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes the table of messages in docs/reference/errors.md from src/common/message_texts.cpp. What its last column says, what
-to do, is kept. Codes that the sources use and the table has not, and codes that nothing uses, are named.
+"""Writes the tables of messages in docs/reference/errors.md from src/common/warning_texts.cpp and error_texts.cpp. What their
+last column says, what to do, is kept. Codes that the sources use and no table has, and codes that nothing uses, are named.
 
 usage: list_messages.py REPOSITORY [--check]     --check: says what would change, with exit code 1, and writes nothing
 """
@@ -9,24 +9,24 @@ import pathlib
 import re
 import sys
 
-TABLE = "src/common/message_texts.cpp"
+TABLES = {"Warnings": "src/common/warning_texts.cpp", "Errors": "src/common/error_texts.cpp"}
 PAGE = "docs/reference/errors.md"
 BEGIN, END = "<!-- messages: made by docs/site/list_messages.py -->\n", "<!-- end of messages -->\n"
 LITERALS = r'((?:"(?:[^"\\\n]|\\.)*"\s*)+)'
 ROW = re.compile(r'\{"([a-z0-9_]+)",\s*' + LITERALS + r"\}")
-USED = re.compile(r'(?:\b(?:warn|Message|InvalidArgument|IOError|ExpressionError|Diverged)\(|push_back\(\{)\s*"([a-z0-9_]+)",\s*[{v]')
+USED = re.compile(r'(?:\b(?:warn|Message|throw (?:\w+::)*\w+)\(|push_back\(\{)\s*"([a-z0-9_]+)",\s*[{v]')
+TEXT = "text"  # the code of texts that are in no table
 QUOTED = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
-TEXT = "text"  # the row of texts that are in no table
 
 
-def read_rows(root):
-    source = (root / TABLE).read_text()
+def read_rows(path):
+    source = path.read_text()
     return {code: "".join(QUOTED.findall(literals)).replace('\\"', '"') for code, literals in ROW.findall(source)}
 
 
 def read_sources(root):
     paths = [p for folder in ("src", "include", "tools", "python") for p in sorted((root / folder).rglob("*"))]
-    return "\n".join(p.read_text() for p in paths if p.suffix in (".cpp", ".h", ".py") and not p.match(TABLE))
+    return "\n".join(p.read_text() for p in paths if p.suffix in (".cpp", ".h", ".py") and str(p.relative_to(root)) not in TABLES.values())
 
 
 def inner_end(text, start):
@@ -69,14 +69,13 @@ def readable(text):
         else:
             shown += readable(parts[2] if len(parts) > 2 and parts[2] else parts[1])
         i = end + 1
-    return shown.replace("|", "\\|")
+    return shown.replace("|", "\\|").replace("\\n...", "")  # the marked lines of an expression
 
 
 def make_table(rows, advice):
     lines = ["| code | text | what to do |\n", "|---|---|---|\n"]
     for code, text in rows.items():
-        if code != TEXT:
-            lines.append(f"| `{code}` | {readable(text)} | {advice.get(code, '')} |\n".replace("|  |", "| |"))
+        lines.append(f"| `{code}` | {readable(text)} | {advice.get(code, '')} |\n".replace("|  |", "| |"))
     return "".join(lines)
 
 
@@ -84,19 +83,21 @@ def main():
     if len(sys.argv) < 2:
         sys.exit(__doc__)
     root = pathlib.Path(sys.argv[1])
-    rows, sources = read_rows(root), read_sources(root)
-    wrong = [f"{TABLE} has no code '{code}'." for code in sorted(set(USED.findall(sources)) - set(rows))]
-    wrong += [f"Nothing tells '{code}' of {TABLE}." for code in rows if code != TEXT and f'"{code}"' not in sources]
+    tables, sources = {title: read_rows(root / path) for title, path in TABLES.items()}, read_sources(root)
+    codes = [code for rows in tables.values() for code in rows]
+    wrong = [f"No table has the code '{code}'." for code in sorted(set(USED.findall(sources)) - {*codes, TEXT})]
+    wrong += [f"Nothing tells '{code}'." for code in codes if f'"{code}"' not in sources]
+    wrong += [f"The code '{code}' has two rows." for code in set(codes) if codes.count(code) > 1]
     page = (root / PAGE).read_text()
     if BEGIN not in page or END not in page:
         sys.exit(f"{PAGE} has no place for the table: {BEGIN}{END}")
     before, rest = page.split(BEGIN)
     old, after = rest.split(END)
     advice = dict(re.findall(r"^\| `([a-z0-9_]+)` \|.*\| (.*?) ?\|$", old, re.MULTILINE))
-    made = before + BEGIN + make_table(rows, advice) + END + after
+    made = before + BEGIN + "\n".join(f"### {title}\n\n" + make_table(rows, advice) for title, rows in tables.items()) + END + after
     if made != page:
         if "--check" in sys.argv:
-            wrong.append(f"{PAGE} is older than {TABLE}: run docs/site/list_messages.py.")
+            wrong.append(f"{PAGE} is older than the tables: run docs/site/list_messages.py.")
         else:
             (root / PAGE).write_text(made)
     sys.exit("\n".join(wrong) or 0)

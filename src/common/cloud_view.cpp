@@ -25,8 +25,7 @@ findAxes(const Fields& fields)
       findField(fields, "x"), findField(fields, "y"), findField(fields, "z")};
   for (const auto* const axis : axes)
     if (axis == nullptr || axis->count > 1)
-      throw InvalidArgument("The cloud needs a number each of x, y and z; it has " +
-                            describeFields(fields) + ".");
+      throw InvalidArgument("cloud_without_xyz", {{"fields", describeFields(fields)}});
   return axes;
 }
 
@@ -35,23 +34,20 @@ checkLayout(const CloudBytes& bytes, const Fields& fields)
 {
   const std::size_t count = bytes.width * bytes.height;
   if (count > static_cast<std::size_t>(std::numeric_limits<pcl::index_t>::max()))
-    throw InvalidArgument(std::to_string(count) +
-                          " points are more than PCL can number: take them in pieces.");
+    throw InvalidArgument("cloud_beyond_numbers", {{"points", count}});
   if (bytes.is_big_endian)
-    throw InvalidArgument("The cloud is big endian: swap its bytes first.");
+    throw InvalidArgument("cloud_big_endian", {});
   const std::size_t padded = bytes.height > 1 ? bytes.row_step * (bytes.height - 1) : 0;
   if (count > 0 && bytes.size < padded + bytes.width * bytes.point_step)
-    throw InvalidArgument("The cloud holds " + std::to_string(bytes.size) +
-                          " bytes, fewer than its " + std::to_string(count) +
-                          " points need.");
+    throw InvalidArgument("cloud_too_short",
+                          {{"bytes", bytes.size}, {"points", count}});
   for (const pcl::PCLPointField& field : fields) {
     if (isPadding(field))
       continue;
     const std::size_t size = datatypeSize(field.datatype); // throws for none
     if (field.offset + size * std::max<std::size_t>(field.count, 1) > bytes.point_step)
-      throw InvalidArgument("The field " + field.name + " ends beyond the " +
-                            std::to_string(bytes.point_step) +
-                            " bytes of a point of the cloud.");
+      throw InvalidArgument("field_beyond_point",
+                            {{"field", field.name}, {"bytes", bytes.point_step}});
   }
 }
 
@@ -124,14 +120,13 @@ void
 detail::checkIndices(const pcl::Indices& indices, std::size_t count, const char* stage)
 {
   if (count == 0)
-    throw InvalidArgument(std::string(stage) + " was given an empty cloud.");
+    throw InvalidArgument("empty_cloud", {{"stage", stage}});
   if (indices.empty())
-    throw InvalidArgument(std::string(stage) + " was given no indices of points.");
+    throw InvalidArgument("no_indices", {{"stage", stage}});
   for (const pcl::index_t index : indices)
     if (index < 0 || static_cast<std::size_t>(index) >= count)
-      throw InvalidArgument(std::string(stage) + " was given the index " +
-                            std::to_string(index) + ", but the cloud has " +
-                            std::to_string(count) + " points.");
+      throw InvalidArgument("index_beyond_cloud",
+                            {{"stage", stage}, {"index", index}, {"points", count}});
 }
 
 pcl::IndicesPtr

@@ -96,8 +96,7 @@ CoordinateRange::Point
 CoordinateRange::findOrigin() const
 {
   if (count_ == 0 && beyond_ > 0)
-    throw InvalidArgument("The coordinates are larger than float can hold (3.4e38): "
-                          "scale the coordinates down.");
+    throw InvalidArgument("coordinates_beyond_float", {});
   std::array<NumberRange, 3> ranges;
   double extent = 0.0, largest = 0.0;
   for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -20,11 +20,11 @@ replaceField(Dataset& dataset,
   pcl::PCLPointCloud2& cloud = dataset.cloud;
   const std::size_t count = values.size();
   if (count != std::size_t{cloud.width} * cloud.height)
-    throw InvalidArgument("The field " + quoteText(name) + " has " +
-                          std::to_string(count) + " values for " +
-                          std::to_string(cloud.width) + " points.");
+    throw InvalidArgument(
+        "field_of_wrong_length",
+        {{"field", shortenText(name)}, {"values", count}, {"points", cloud.width}});
   if (axisOf(name) >= 0)
-    throw InvalidArgument("The field " + quoteText(name) + " is a coordinate.");
+    throw InvalidArgument("field_is_coordinate", {{"field", shortenText(name)}});
   dataset.labels.erase(name);
   // The old one becomes padding, which goes when the new one is packed.
   for (auto& field : cloud.fields)
@@ -53,16 +53,14 @@ setCoordinates(Dataset& dataset, const std::vector<double>& xyz)
   auto& cloud = dataset.cloud;
   const std::size_t count = xyz.size() / 3;
   if (xyz.size() % 3 != 0 || count > most_points)
-    throw InvalidArgument("There are " + std::to_string(xyz.size()) +
-                          " coordinates, which are not three for each point.");
+    throw InvalidArgument("coordinates_not_in_threes", {{"coordinates", xyz.size()}});
   if (cloud.fields.empty()) {
     cloud.height = 1;
     cloud.width = static_cast<pcl::uindex_t>(count);
   }
   else if (static_cast<std::size_t>(cloud.width) * cloud.height != count)
-    throw InvalidArgument("There are coordinates of " + std::to_string(count) +
-                          " points for a cloud of " +
-                          std::to_string(cloud.width * cloud.height) + ".");
+    throw InvalidArgument("coordinates_of_other_points",
+                          {{"given", count}, {"points", cloud.width * cloud.height}});
   CoordinateRange range;
   for (std::size_t i = 0; i < xyz.size(); i += 3)
     range.add({xyz[i], xyz[i + 1], xyz[i + 2]});

@@ -35,8 +35,7 @@ chooseLevel()
                                     std::pair{"avx512", SimdLevel::Avx512}})
     if (name == word)
       return std::min(level, levelOfMachine());
-  throw InvalidArgument("The environment variable PCL_UVOL_SIMD is " + quoteText(name) +
-                        ": it can be baseline, avx2 or avx512.");
+  throw InvalidArgument("unknown_simd_level", {{"level", shortenText(name)}});
 }
 
 } // namespace

@@ -155,9 +155,10 @@ checkMemory(const std::string& what, double bytes, double taken)
 {
   const double available = static_cast<double>(availableMemory()) + taken;
   if (bytes > available)
-    throw NotEnoughMemory(what + " needs " + formatBytes(bytes) +
-                          " of memory, and only " + formatBytes(available) +
-                          " are available.");
+    throw NotEnoughMemory("not_enough_memory",
+                          {{"what", what},
+                           {"needed", formatBytes(bytes)},
+                           {"available", formatBytes(available)}});
 }
 
 } // namespace pcl_uvol

@@ -120,8 +120,8 @@ private:
     for (const MessageValue& value : message_.values)
       if (value.name == name)
         return value.value;
-    throw InvalidArgument("The message '" + message_.code + "' has no value '" +
-                          std::string(name) + "'.");
+    throw InvalidArgument("message_without_value",
+                          {{"message", message_.code}, {"value", std::string(name)}});
   }
 
   const Message& message_;

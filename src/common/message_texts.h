@@ -17,6 +17,31 @@ struct MessageText {
   const char* text;
 };
 
+/** \brief A table of texts. */
+struct MessageTexts {
+  const MessageText *first, *last;
+
+  const MessageText*
+  begin() const
+  {
+    return first;
+  }
+
+  const MessageText*
+  end() const
+  {
+    return last;
+  }
+};
+
+/** \brief What is told beside a result: warning_texts.cpp. */
+MessageTexts
+listWarnings();
+
+/** \brief What exceptions tell: error_texts.cpp. */
+MessageTexts
+listErrors();
+
 /** \brief The row of a code.
  * \throws InvalidArgument if there is none */
 const MessageText&

@@ -78,8 +78,9 @@ toJsonValue(const T& value)
 [[noreturn]] inline void
 refuseJson(const std::string& name, const JsonValue& value, const char* expected)
 {
-  throw InvalidArgument("The parameter " + name + " is " + shortenText(value.dump()) +
-                        ": it must be " + expected + ".");
+  throw InvalidArgument(
+      "wrong_parameter",
+      {{"name", name}, {"value", shortenText(value.dump())}, {"expected", expected}});
 }
 
 /** \throws InvalidArgument that lists the names that there are */
@@ -92,9 +93,11 @@ refuseName(const std::string& prefix,
   for (const std::string& name : names)
     list += (list.empty() ? "" : ", ") + name;
   const std::string similar = findSimilar(names, key);
-  throw InvalidArgument("There is no parameter " + prefix + shortenText(key) +
-                        (similar.empty() ? "" : " (did you mean '" + similar + "'?)") +
-                        ": there are " + list + ".");
+  throw InvalidArgument("unknown_parameter",
+                        {{"name", prefix + shortenText(key)},
+                         {"has_similar", !similar.empty()},
+                         {"similar", similar},
+                         {"names", list}});
 }
 
 template <typename T>
@@ -214,7 +217,7 @@ readJson(const std::string& text)
 {
   const auto json = detail::JsonValue::parse(text);
   if (!json)
-    throw InvalidArgument("The parameters are not JSON.");
+    throw InvalidArgument("parameters_not_json", {});
   Parameters parameters;
   detail::readMembers("", *json, parameters);
   return parameters;

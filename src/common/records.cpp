@@ -136,8 +136,8 @@ void
 checkSize(std::uint64_t count, std::uint64_t step)
 {
   if (count > most_points || step > most_points)
-    throw InvalidArgument(std::to_string(count) + " points of " + std::to_string(step) +
-                          " bytes are more than PCL can number.");
+    throw InvalidArgument("records_beyond_numbers",
+                          {{"points", count}, {"bytes", step}});
 }
 
 pcl::PCLPointCloud2
@@ -158,8 +158,8 @@ RecordLayout::RecordLayout(const RecordInfo& info, std::size_t step)
   for (const char* const axis : axis_names) {
     const auto* const field = findField(info.fields, axis);
     if (!field || field->count > 1)
-      throw InvalidArgument(std::string("There is no scalar field ") + axis +
-                            "; the fields are " + describeFields(info.fields) + ".");
+      throw InvalidArgument("no_coordinate_field",
+                            {{"axis", axis}, {"fields", describeFields(info.fields)}});
   }
   header_.notes = info.notes;
   header_.has_coordinates = info.has_coordinates;
@@ -308,12 +308,10 @@ checkComplete(const pcl::PCLPointCloud2& cloud)
 {
   const auto points = static_cast<std::uint64_t>(cloud.width) * cloud.height;
   if (cloud.data.size() / std::max<std::size_t>(cloud.point_step, 1) < points)
-    throw InvalidArgument("The cloud holds fewer bytes than its " +
-                          std::to_string(points) + " points need.");
+    throw InvalidArgument("cloud_incomplete", {{"points", points}});
   for (const auto& field : cloud.fields)
     if (field.offset + fieldBytes(field) > cloud.point_step)
-      throw InvalidArgument("The field " + quoteText(field.name) +
-                            " ends behind its point.");
+      throw InvalidArgument("field_behind_point", {{"field", shortenText(field.name)}});
 }
 
 Fields
@@ -349,8 +347,8 @@ savedFields(const Dataset& dataset)
   for (const char* const axis : {"x", "y", "z"}) {
     const auto* const field = findField(cloud.fields, axis);
     if (!field || field->datatype != Type::FLOAT32)
-      throw InvalidArgument("The cloud needs float32 fields x, y, z; it has " +
-                            describeFields(cloud.fields) + ".");
+      throw InvalidArgument("cloud_without_float_xyz",
+                            {{"fields", describeFields(cloud.fields)}});
   }
   return saved;
 }

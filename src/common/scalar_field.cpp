@@ -43,8 +43,7 @@ const TypeInfo&
 typeInfo(std::uint8_t datatype)
 {
   if (datatype < 1 || datatype > type_infos.size())
-    throw InvalidArgument("A field has the unknown type " + std::to_string(datatype) +
-                          ".");
+    throw InvalidArgument("unknown_datatype", {{"type", datatype}});
   return type_infos[datatype - 1];
 }
 
@@ -76,12 +75,10 @@ throwUnknown(const Fields& fields, const std::string& name)
       std::all_of(fields.begin(), fields.end(), [](const pcl::PCLPointField& field) {
         return field.name == "x" || field.name == "y" || field.name == "z";
       });
-  throw InvalidArgument(
-      "There is no field " + quoteText(name) + "; the fields are " +
-      describeFields(fields) +
-      (has_coordinates_only
-           ? ". Data of cells, in files of VTK, are read by the option cells."
-           : "."));
+  throw InvalidArgument("unknown_field",
+                        {{"field", shortenText(name)},
+                         {"fields", describeFields(fields)},
+                         {"has_coordinates_only", has_coordinates_only}});
 }
 
 /** The components of fields called name and one of the endings, as far as there are any
@@ -117,13 +114,11 @@ scalarComponent(const Fields& fields, const std::string& expression)
 {
   if (const auto* const field = findField(fields, expression)) {
     const std::size_t count = componentCount(*field);
-    if (count > 1) {
-      const std::string shown = shortenText(expression);
-      throw InvalidArgument("The field '" + shown + "' has " + std::to_string(count) +
-                            " components: write " + shown + "[0] to " + shown + "[" +
-                            std::to_string(count - 1) + "] for one of them or |" +
-                            shown + "| for their length.");
-    }
+    if (count > 1)
+      throw InvalidArgument("field_of_components",
+                            {{"field", shortenText(expression)},
+                             {"components", count},
+                             {"last", count - 1}});
     return componentOf(*field, 0);
   }
   const std::size_t bracket = expression.rfind('[');
@@ -133,17 +128,15 @@ scalarComponent(const Fields& fields, const std::string& expression)
   const char* const last = expression.data() + expression.size() - 1;
   const auto parsed = std::from_chars(expression.data() + bracket + 1, last, index, 10);
   if (parsed.ec != std::errc() || parsed.ptr != last)
-    throw InvalidArgument("The component in " + quoteText(expression) +
-                          " is not a number from 0, as in vel[1].");
+    throw InvalidArgument("component_not_number", {{"field", shortenText(expression)}});
   const std::string name(trimmed(std::string_view(expression).substr(0, bracket)));
   const auto* const field = findField(fields, name);
   const auto parts = // of one field there may be very many
       field ? std::vector<FieldComponent>() : allComponents(fields, name);
   const std::size_t count = field ? componentCount(*field) : parts.size();
   if (index >= count)
-    throw InvalidArgument("The component in " + quoteText(expression) +
-                          " is too large: it may be 0 to " + std::to_string(count - 1) +
-                          ".");
+    throw InvalidArgument("component_too_large",
+                          {{"field", shortenText(expression)}, {"last", count - 1}});
   return field ? componentOf(*field, index) : parts[index];
 }
 
@@ -269,10 +262,9 @@ ScalarField::defaultName(const Fields& fields)
   if (scalars.size() == 1)
     return scalars.front().name;
   if (candidates.empty())
-    throw InvalidArgument("There is no scalar field; the fields are " +
-                          describeFields(fields) + ".");
-  throw InvalidArgument("Name the scalar field to use, one of " +
-                        describeFields(candidates) + ".");
+    throw InvalidArgument("no_scalar_field", {{"fields", describeFields(fields)}});
+  throw InvalidArgument("several_scalar_fields",
+                        {{"fields", describeFields(candidates)}});
 }
 
 double

@@ -41,26 +41,16 @@ struct Direction {
   }
 };
 
-[[noreturn]] void
-refuse(const char* angle, double given, const std::string& allowed)
-{
-  throw InvalidArgument(std::string("The ") + angle + " of the axes is " +
-                        std::to_string(given) + " degrees: it must be " + allowed +
-                        ".");
-}
-
 void
 check(const Eigen::Array3d& rotation)
 {
   const double strike = rotation[0], dip = rotation[1], plunge = rotation[2];
   if (!std::isfinite(strike))
-    refuse("strike", strike, "finite");
+    throw InvalidArgument("strike_not_finite", {{"strike", strike}});
   if (!(dip >= 0.0 && dip <= 90.0))
-    refuse("dip", dip, "0 to 90");
+    throw InvalidArgument("dip_out_of_range", {{"dip", dip}});
   if (!(std::abs(plunge) <= dip))
-    refuse("plunge",
-           plunge,
-           "no steeper than the dip of the plane, " + std::to_string(dip));
+    throw InvalidArgument("plunge_too_steep", {{"plunge", plunge}, {"dip", dip}});
 }
 
 /** The components of vectors: of positions, and of normals, which files may hold in
@@ -182,14 +172,13 @@ Stretch
 Stretch::ofMap(const Matrix3d& map)
 {
   if (!map.allFinite())
-    throw InvalidArgument("The nine numbers of the scale must be finite.");
+    throw InvalidArgument("scale_map_not_finite", {});
   const Eigen::JacobiSVD<Matrix3d> singular(map, Eigen::ComputeFullV);
   // gcc takes what a reference refers to for uninitialized.
   // NOLINTNEXTLINE(performance-unnecessary-copy-initialization)
   const Vector3d factors = singular.singularValues(); // descending
   if (!(factors[2] > least_singular_value * factors[0]))
-    throw InvalidArgument("The nine numbers of the scale leave a direction without "
-                          "length: their rows must not lie in one plane.");
+    throw InvalidArgument("scale_map_flat", {});
   // The order of the axes is the one that stays nearest to x, y and z, so that a
   // diagonal map gives its diagonal.
   const Matrix3d directions = singular.matrixV().transpose();

@@ -150,9 +150,8 @@ detail::estimateGradients(const CloudView& cloud,
 {
   const std::size_t least = derivativesOf(parameters.scheme);
   if (parameters.k < least)
-    throw InvalidArgument("The number of neighbours is " +
-                          std::to_string(parameters.k) + ": it must be at least " +
-                          std::to_string(least) + " with this scheme.");
+    throw InvalidArgument("few_neighbors_for_scheme",
+                          {{"neighbors", parameters.k}, {"least", least}});
   checkIndices(indices, cloud.count, "GradientEstimation");
   const ScalarField field(cloud.fields, parameters.field);
   const ValueFrame frame = findValueRange(cloud, field, threads).findFrame();

@@ -103,8 +103,8 @@ Decomposition::Decomposition(int levels)
     : levels_(levels)
 {
   if (levels < 0 || levels > most_levels)
-    throw InvalidArgument(std::to_string(levels) + " levels are not allowed: 0 to " +
-                          std::to_string(most_levels) + " are.");
+    throw InvalidArgument("bad_levels_of_pieces",
+                          {{"levels", levels}, {"most", most_levels}});
   planes_.resize(size());
 }
 
@@ -128,8 +128,8 @@ Decomposition::Decomposition(const PositionSource& positions,
   axes_ = KdTree::cycleOver(search.getExtent());
   const std::uint64_t total = search.getCounts()[1];
   if (total < size())
-    throw InvalidArgument(std::to_string(total) + " samples cannot be parted into " +
-                          std::to_string(size()) + " pieces.");
+    throw InvalidArgument("more_pieces_than_samples",
+                          {{"samples", total}, {"pieces", size()}});
   findPlanes(search);
 }
 
@@ -145,9 +145,8 @@ Decomposition::Decomposition(const Decomposition& top,
   MedianSearch search(positions, levels, communicator, threads);
   const std::uint64_t total = search.getCounts()[1];
   if (total != top.getCount(piece))
-    throw InvalidArgument("A piece of " + std::to_string(top.getCount(piece)) +
-                          " samples cannot be parted by processes that have " +
-                          std::to_string(total) + ".");
+    throw InvalidArgument("piece_of_other_samples",
+                          {{"samples", top.getCount(piece)}, {"held", total}});
   findPlanes(search);
 }
 

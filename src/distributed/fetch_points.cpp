@@ -36,8 +36,7 @@ answer(const std::vector<Bytes>& questions,
     answers[rank].reserve(indices.size() * points.point_step);
     for (const std::uint64_t index : indices) {
       if (index < first || index - first >= count)
-        throw InvalidArgument("No process has the point " + std::to_string(index) +
-                              ".");
+        throw InvalidArgument("point_of_no_rank", {{"point", index}});
       const auto point =
           points.data.begin() +
           static_cast<std::ptrdiff_t>((index - first) * std::size_t(points.point_step));

@@ -218,9 +218,8 @@ Piece::build(const Decomposition& decomposition,
              Report& report)
 {
   if (samples.size() > most_samples)
-    throw InvalidArgument("A piece of " + std::to_string(samples.size()) +
-                          " samples is too large: " + std::to_string(most_samples) +
-                          " are allowed.");
+    throw InvalidArgument("piece_too_large",
+                          {{"samples", samples.size()}, {"most", most_samples}});
   if (samples.size() == 0)
     return std::nullopt; // elsewhere equal ones lie together
   StepTimer step(report, "tree", samples.size());
@@ -292,8 +291,7 @@ Piece::toLocal(std::uint64_t sample) const
 {
   const auto run = findRun(sample);
   if (run == runs_.end() || sample - run->begin >= run->count)
-    throw InvalidArgument("The piece does not hold sample " + std::to_string(sample) +
-                          ".");
+    throw InvalidArgument("sample_not_in_piece", {{"sample", sample}});
   return getFirst(*run) + static_cast<std::uint32_t>(sample - run->begin);
 }
 
@@ -351,8 +349,7 @@ Piece::join(const std::vector<GhostBrick>& bricks, std::vector<KdTree>&& trees)
     total += ghost.samples.size();
   if (total >
       std::size_t(2) * most_samples - anchors_per_cell * (runs_.size() + bricks.size()))
-    throw InvalidArgument("A piece cannot hold " + std::to_string(total) +
-                          " samples with those around it.");
+    throw InvalidArgument("piece_too_large_with_ghosts", {{"samples", total}});
   SampleSet::Parts old = std::move(*samples_).take();
   Samples before;
   before.positions = std::move(old.positions);

@@ -86,7 +86,7 @@ RankStore::redistribute()
   std::vector<std::uint64_t> total{samples_.size()};
   communicator_.allReduce(total);
   if (total[0] == 0)
-    throw InvalidArgument("No process has a sample with a position and a value.");
+    throw InvalidArgument("no_samples_of_ranks", {});
   const int levels = chooseLevels(communicator_.size(), total[0]);
   parted_.emplace(pcl_uvol::redistribute(std::move(samples_),
                                          levels,

@@ -158,9 +158,8 @@ redistributeInGroups(Samples& samples,
   };
   const Decomposition top = decompose(samples, make_top, report);
   if (top.getSampleCount() >> levels == 0)
-    throw InvalidArgument(std::to_string(top.getSampleCount()) +
-                          " samples cannot be parted into 2^" + std::to_string(levels) +
-                          " pieces.");
+    throw InvalidArgument("more_levels_than_samples",
+                          {{"samples", top.getSampleCount()}, {"levels", levels}});
   samples = sendToGroups(samples, top, owners, communicator, threads, report);
 
   const std::size_t own = owners.getGroup(communicator.rank());
@@ -209,9 +208,7 @@ redistribute(Samples&& samples,
 {
   if (groups == 0 || (groups & (groups - 1)) != 0 || groups > communicator.size() ||
       (levels >= 0 && groups >> levels > 1))
-    throw InvalidArgument(std::to_string(groups) + " groups are not allowed: " +
-                          "a power of two that is no larger than the number of " +
-                          "processes and that of pieces is.");
+    throw InvalidArgument("bad_groups_of_ranks", {{"groups", groups}});
   if (groups > 1)
     return redistributeInGroups(samples, levels, groups, communicator, threads, report);
   const auto make = [&](const PositionSource& positions) {

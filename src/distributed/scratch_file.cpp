@@ -24,8 +24,8 @@ ScratchFile::ScratchFile(const std::string& folder)
       ::unlink(path.c_str());
   }
   if (descriptor_ < 0)
-    throw IOError("The scratch folder " + folder +
-                  " takes no files: " + std::strerror(errno) + ".");
+    throw IOError("scratch_folder_refused",
+                  {{"folder", folder}, {"reason", std::strerror(errno)}});
 }
 
 ScratchFile::~ScratchFile()
@@ -43,9 +43,10 @@ ScratchFile::write(std::uint64_t offset, const void* data, std::size_t size)
     if (written < 0 && errno == EINTR)
       continue;
     if (written <= 0)
-      throw IOError("The scratch folder " + folder_ + " took no more than " +
-                    formatBytes(static_cast<double>(size_)) +
-                    " of a file: " + std::strerror(errno) + ".");
+      throw IOError("scratch_folder_full",
+                    {{"folder", folder_},
+                     {"size", formatBytes(static_cast<double>(size_))},
+                     {"reason", std::strerror(errno)}});
     next += written;
     size -= static_cast<std::size_t>(written);
     offset += static_cast<std::uint64_t>(written);
@@ -62,9 +63,9 @@ ScratchFile::read(std::uint64_t offset, void* data, std::size_t size) const
     if (got < 0 && errno == EINTR)
       continue;
     if (got <= 0)
-      throw IOError("A file in the scratch folder " + folder_ +
-                    " cannot be read back: " +
-                    (got == 0 ? "it is too short" : std::strerror(errno)) + ".");
+      throw IOError("scratch_file_lost",
+                    {{"folder", folder_},
+                     {"reason", got == 0 ? "it is too short" : std::strerror(errno)}});
     next += got;
     size -= static_cast<std::size_t>(got);
     offset += static_cast<std::uint64_t>(got);

@@ -73,10 +73,11 @@ ScratchMemory::chooseLevels(std::uint64_t samples) const
     if (piece <= Piece::most_samples && computeBytes(count, piece) <= max_memory_)
       return levels;
   }
-  throw InvalidArgument("To take " + std::to_string(samples) +
-                        " samples through memory in pieces takes at least " +
-                        formatBytes(static_cast<double>(computeLeast(samples))) +
-                        " of it, and " + formatBytes(max_memory_) + " were allowed.");
+  throw InvalidArgument(
+      "memory_for_pieces",
+      {{"samples", samples},
+       {"least", formatBytes(static_cast<double>(computeLeast(samples)))},
+       {"allowed", formatBytes(max_memory_)}});
 }
 
 std::uint64_t
@@ -99,18 +100,17 @@ ScratchMemory::checkPiece(std::uint64_t samples, std::uint64_t total) const
 {
   if (!fits(samples, total))
     throw InvalidArgument(
-        std::to_string(samples) +
-        " samples lie together, many of them at one place: they do not fit into " +
-        formatBytes(max_memory_) + " of memory.");
+        "memory_for_piece",
+        {{"samples", samples}, {"allowed", formatBytes(max_memory_)}});
 }
 
 void
 ScratchMemory::checkBlock(std::uint64_t samples, std::uint64_t total) const
 {
   if (samples > most_around_block && !fits(samples, total))
-    throw InvalidArgument(std::to_string(samples) +
-                          " samples around one place do not fit into " +
-                          formatBytes(max_memory_) + " of memory.");
+    throw InvalidArgument(
+        "memory_for_block",
+        {{"samples", samples}, {"allowed", formatBytes(max_memory_)}});
 }
 
 void
@@ -119,9 +119,9 @@ ScratchMemory::checkRecords(std::uint64_t bytes, std::uint64_t total) const
   const double needed =
       computeBesides(total) + merging_copies * static_cast<double>(bytes);
   if (needed > max_memory_)
-    throw InvalidArgument("The result alone takes more than " + formatBytes(needed) +
-                          " of memory, and " + formatBytes(max_memory_) +
-                          " were allowed.");
+    throw InvalidArgument(
+        "memory_for_result",
+        {{"needed", formatBytes(needed)}, {"allowed", formatBytes(max_memory_)}});
 }
 
 std::uint64_t

@@ -78,8 +78,9 @@ void
 checkDerivatives(const Formula& formula, const DerivedFieldOptions& options)
 {
   if (!options.no_derivatives.empty() && formula.hasDerivative())
-    throw InvalidArgument("The derivatives in " + quoteText(formula.text) +
-                          " are not to be had " + options.no_derivatives + ".");
+    throw InvalidArgument(
+        "no_derivatives",
+        {{"field", shortenText(formula.text)}, {"reason", options.no_derivatives}});
 }
 
 /** The points with images. */
@@ -120,8 +121,8 @@ computeColumn(const Dataset& dataset,
 {
   checkDerivatives(formula, options);
   if (formula.hasDerivative() && !dataset.has_coordinates)
-    throw InvalidArgument("The derivatives in " + quoteText(formula.text) +
-                          " need coordinates, and the points have none.");
+    throw InvalidArgument("derivatives_without_coordinates",
+                          {{"field", shortenText(formula.text)}});
   checkPeriodic(options.periodic);
   FormulaPoints points;
   points.own = viewOf(dataset.cloud);
@@ -169,10 +170,11 @@ findFormula(const Dataset& header,
   const std::string text(trimmed(expression));
   const bool is_name = !text.empty() && findNameEnd(text, 0) == text.size();
   if (is_name && findComponents(fields, text).empty())
-    throw InvalidArgument(describeUnknown(header, text));
+    throw InvalidArgument("unknown_lone_field", valuesOfUnknown(header, text));
   Formula formula = parseFormula(header, text);
   if (const std::size_t width = formula.width(); width > 1)
-    throw ExpressionError(describeComponents(formula.operands.front()) + ".", text, 0);
+    throw ExpressionError(
+        "several_components", valuesOfComponents(formula.operands.front()), text, 0);
   checkDerivatives(formula, options);
   formula.text = nameWithoutQuotes(header, formula);
   return formula;
@@ -220,9 +222,7 @@ selectRows(Dataset& dataset,
   const std::string text(trimmed(where));
   const Formula formula = parseFormula(dataset, text);
   if (!formula.compares)
-    throw InvalidArgument(quoteText(text) +
-                          " is no comparison: write one of =, !=, <, <=, >, >= between "
-                          "two fields or numbers, as in T>=4.");
+    throw InvalidArgument("no_comparison", {{"where", shortenText(text)}});
   std::uint64_t undefined = 0;
   return keepRows(
       dataset.cloud,

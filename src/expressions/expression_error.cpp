@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <string_view>
+#include <utility>
 
 namespace pcl_uvol {
 
@@ -43,14 +44,25 @@ markPlace(std::string_view expression, std::size_t place)
          std::string(countCharacters(before), ' ') + '^';
 }
 
+std::vector<MessageValue>
+withMarkedLines(std::vector<MessageValue> values,
+                const std::string& expression,
+                std::size_t place)
+{
+  values.emplace_back("marked_lines", markPlace(expression, place));
+  return values;
+}
+
 } // namespace
 
-ExpressionError::ExpressionError(const std::string& sentence,
+ExpressionError::ExpressionError(std::string code,
+                                 std::vector<MessageValue> values,
                                  const std::string& expression,
                                  std::size_t place)
-    : InvalidArgument(sentence + '\n' + markPlace(expression, place))
-    , sentence_(sentence)
+    : InvalidArgument(std::move(code),
+                      withMarkedLines(std::move(values), expression, place))
     , marked_(markPlace(expression, place))
+    , sentence_(message().substr(0, message().size() - marked_.size() - 1))
 {
 }
 

@@ -38,14 +38,14 @@ Operand::fullWidth() const
   }
 }
 
-std::string
-describeComponents(const Operand& operand)
+std::vector<MessageValue>
+valuesOfComponents(const Operand& operand)
 {
   const std::size_t width = operand.width();
-  return quoteText(operand.text) + " has " + std::to_string(width) +
-         " components: write |" + operand.text + "| for their length, or " +
-         operand.text + "[0] to " + operand.text + "[" + std::to_string(width - 1) +
-         "] for one of them";
+  return {{"name", shortenText(operand.text)},
+          {"components", width},
+          {"operand", operand.text},
+          {"last", width - 1}};
 }
 
 bool

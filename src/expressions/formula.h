@@ -5,6 +5,7 @@
 
 #include "common/scalar_field.h"
 #include <pcl_uvol/common/dataset.h>
+#include <pcl_uvol/common/message.h>
 
 #include <cstddef>
 #include <optional>
@@ -78,9 +79,10 @@ struct Formula {
 Formula
 parseFormula(const Dataset& header, const std::string& expression);
 
-/** What is said of an operand of several components where one number is needed. */
-std::string
-describeComponents(const Operand& operand);
+/** What the message of several_components holds, of an operand where one number is
+ * needed. */
+std::vector<MessageValue>
+valuesOfComponents(const Operand& operand);
 
 /** True for an expression with derivatives in it, told without knowing any field. */
 PCL_UVOL_EXPORTS bool

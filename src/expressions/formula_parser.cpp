@@ -14,8 +14,9 @@
 #include <pcl_uvol/expressions/derived_fields.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
+#include <utility>
+#include <vector>
 
 namespace pcl_uvol {
 
@@ -44,14 +45,12 @@ public:
   parseAll()
   {
     if (text_.size() > most_characters)
-      throw ExpressionError("The expression has " + std::to_string(text_.size()) +
-                                " characters: at most " +
-                                std::to_string(most_characters) + " are computed.",
-                            text_,
-                            most_characters);
+      fail("expression_too_long",
+           most_characters,
+           {{"characters", text_.size()}, {"most", most_characters}});
     Formula formula = parse('\0', 0);
     if (!formula.hasField())
-      fail("The expression names no field", 0);
+      fail("expression_without_field", 0);
     return formula;
   }
 
@@ -69,10 +68,9 @@ private:
   };
 
   [[noreturn]] void
-  fail(const std::string& sentence, std::size_t place) const
+  fail(std::string code, std::size_t place, std::vector<MessageValue> values = {}) const
   {
-    const bool is_whole = sentence.back() == '.' || sentence.back() == '?';
-    throw ExpressionError(sentence + (is_whole ? "" : "."), text_, place);
+    throw ExpressionError(std::move(code), std::move(values), text_, place);
   }
 
   char
@@ -94,9 +92,7 @@ private:
   parse(char closing, std::size_t opening)
   {
     if (++depth_ > most_depth)
-      fail("More than " + std::to_string(most_depth) +
-               " functions and lengths stand in one another",
-           at_);
+      fail("expression_too_deep", at_, {{"most", most_depth}});
     Draft draft;
     skipBlanks();
     const std::size_t begin = at_;
@@ -120,10 +116,9 @@ private:
   {
     if (at_ == text_.size()) {
       if (!draft.opened.empty())
-        fail("A parenthesis is not closed", draft.opened.back().place);
+        fail("parenthesis_not_closed", draft.opened.back().place);
       if (closing != '\0')
-        fail(closing == '|' ? "A bar is not closed" : "A parenthesis is not closed",
-             opening);
+        fail(closing == '|' ? "bar_not_closed" : "parenthesis_not_closed", opening);
       return true;
     }
     return closing != '\0' && draft.opened.empty() &&
@@ -190,7 +185,7 @@ private:
     const std::string digits = text_.substr(at_, end - at_);
     double number = 0.0;
     if (!parseNumber(digits, number))
-      fail("The number is too large", at_);
+      fail("number_too_large", at_);
     add(draft, Kind::Number, digits.size(), digits);
     draft.tokens.back().number = number;
   }
@@ -200,9 +195,7 @@ private:
   {
     const std::size_t end = findNameEnd(text_, at_);
     if (end == at_)
-      fail(at_ == text_.size() ? "A field or a number is missing at the end"
-                               : "A field or a number is missing",
-           at_);
+      fail(at_ == text_.size() ? "operand_missing_at_end" : "operand_missing", at_);
     const std::string name = text_.substr(at_, end - at_);
     if (isCallAt(end))
       return readCall(draft, name);
@@ -222,7 +215,7 @@ private:
     if (!derivative) {
       const auto& functions = listFunctions();
       if (std::find(functions.begin(), functions.end(), name) == functions.end())
-        fail(describeUnknownFunction(name), at_);
+        fail("unknown_function", at_, valuesOfUnknownFunction(name));
       add(draft, Kind::Other, name.size(), name);
       return false;
     }
@@ -261,12 +254,12 @@ private:
     if (std::none_of(arguments.begin(), arguments.end(), [](const Formula& argument) {
           return argument.hasField();
         }))
-      fail("No field is derived", place);
+      fail("no_field_derived", place);
     if (operand.derivative == Derivative::Gradient ||
         operand.derivative == Derivative::Laplacian ||
         operand.derivative == Derivative::Curvature) {
       if (arguments.size() != 1 || arguments[0].width() != 1)
-        fail(name + " takes one number per point, as in " + name + "(rho)", place);
+        fail("argument_not_one_number", place, {{"function", name}});
       return;
     }
     const bool is_vector = arguments.size() == 1 && arguments[0].width() == 3;
@@ -276,9 +269,7 @@ private:
           return argument.width() == 1;
         });
     if (!is_vector && !are_components)
-      fail(name + " takes a field of three components or three fields, as in " + name +
-               "(vel) or " + name + "(vx,vy,vz)",
-           place);
+      fail("argument_not_vector", place, {{"function", name}});
   }
 
   void
@@ -296,7 +287,7 @@ private:
   {
     const std::size_t end = text_.find('"', at_ + 1);
     if (end == std::string::npos)
-      fail("A quotation mark is not closed", at_);
+      fail("quotation_not_closed", at_);
     addField(draft, text_.substr(at_ + 1, end - at_ - 1), end + 1 - at_);
   }
 
@@ -305,7 +296,7 @@ private:
   {
     Operand operand = makeFieldOperand(fields_, origin_, name);
     if (operand.components.empty())
-      fail(describeUnknown(header_, name), at_);
+      fail("unknown_operand", at_, valuesOfUnknown(header_, name));
     const std::size_t begin = at_;
     at_ += characters;
     addOperand(draft, std::move(operand), begin);
@@ -321,24 +312,29 @@ private:
   {
     skipBlanks();
     if (peek() != '=' && !(peek() == '!' && peek(1) == '='))
-      fail(quoteText(field) + " holds names, which = and != compare, as in " + field +
-               "=\"" + shortenText(labels.empty() ? "A-1" : labels.front()) + "\"",
-           at_);
+      fail("names_not_compared",
+           at_,
+           {{"field", shortenText(field)},
+            {"operand", field},
+            {"name", shortenText(labels.empty() ? "A-1" : labels.front())}});
     readOperator(draft, '\0');
     skipBlanks();
     std::string name;
     const std::size_t begin = at_;
     const bool is_quoted = isLabelQuote(peek());
     if (!takeLabel(text_, at_, name))
-      fail("A quotation mark is not closed", begin);
+      fail("quotation_not_closed", begin);
     if (name.empty() && !is_quoted)
-      fail("A name is missing", begin);
+      fail("name_missing", begin);
     const auto found = std::find(labels.begin(), labels.end(), name);
     if (found == labels.end() && !name.empty()) {
       const std::string similar = findSimilar(labels, name);
-      fail("The field " + quoteText(field) + " has no name " + quoteText(name) +
-               (similar.empty() ? "" : "; did you mean " + quoteText(similar) + "?"),
-           begin);
+      fail("unknown_name",
+           begin,
+           {{"field", shortenText(field)},
+            {"name", shortenText(name)},
+            {"has_similar", !similar.empty()},
+            {"similar", shortenText(similar)}});
     }
     const std::string label =
         name.empty() ? "-1" : std::to_string(found - labels.begin());
@@ -375,11 +371,9 @@ private:
         std::from_chars(&text_[at_], text_.data() + text_.size(), component);
     const auto end = static_cast<std::size_t>(parsed.ptr - text_.data());
     if (parsed.ec != std::errc() || end == text_.size() || text_[end] != ']')
-      fail("A component is a number from 0 between brackets, as in vel[1]", opening);
+      fail("component_not_in_brackets", opening);
     if (component >= operand.fullWidth())
-      fail("The component is too large: it may be 0 to " +
-               std::to_string(operand.fullWidth() - 1),
-           at_);
+      fail("operand_component_too_large", at_, {{"last", operand.fullWidth() - 1}});
     operand.component = component;
     at_ = end + 1;
   }
@@ -392,13 +386,13 @@ private:
     switch (c) {
     case ')':
       if (draft.opened.empty())
-        fail("No parenthesis is open", at_);
+        fail("no_parenthesis_open", at_);
       draft.opened.pop_back();
       add(draft, Kind::Close, 1, ")");
       return false;
     case ',':
       if (draft.opened.empty() || !draft.opened.back().is_function)
-        fail("A comma stands where no function has arguments", at_);
+        fail("misplaced_comma", at_);
       add(draft, Kind::Joint, 1, ",");
       return true;
     case '+':
@@ -430,7 +424,7 @@ private:
         return true;
       }
     }
-    fail(c == '&' ? "Conditions are joined by &&" : "An operator is missing", at_);
+    fail(c == '&' ? "single_ampersand" : "operator_missing", at_);
   }
 
   Formula
@@ -447,8 +441,7 @@ private:
       formula.compares |= token.kind == Kind::Relation;
     }
     if (const Token* const second = findSecondRelation(draft.tokens))
-      fail("Comparisons are joined by &&, as in 1<T && T<2; there are two at once",
-           second->place);
+      fail("chained_comparisons", second->place);
     roundNumbers(formula.operands, draft.tokens);
     std::vector<std::size_t> ends; // of the tokens in the program
     for (const Token& token : draft.tokens) {
@@ -460,9 +453,8 @@ private:
     }
     catch (const ProgramError& error) {
       const auto token = std::upper_bound(ends.begin(), ends.end() - 1, error.place);
-      std::string reason = error.reason;
-      reason[0] = static_cast<char>(std::toupper(reason[0]));
-      fail(reason, draft.tokens[static_cast<std::size_t>(token - ends.begin())].place);
+      fail(error.code,
+           draft.tokens[static_cast<std::size_t>(token - ends.begin())].place);
     }
     return formula;
   }
@@ -471,7 +463,7 @@ private:
   checkScalar(const Operand& operand, std::size_t place) const
   {
     if (operand.width() > 1)
-      fail(describeComponents(operand), place);
+      fail("several_components", place, valuesOfComponents(operand));
   }
 
   const Dataset& header_;

@@ -170,8 +170,6 @@ namespace {
 std::string
 describeCellFields(std::vector<std::string> names, const std::string& name)
 {
-  if (names.empty())
-    return "";
   std::stable_partition(names.begin(), names.end(), [&](const std::string& other) {
     return other == name;
   });
@@ -181,13 +179,13 @@ describeCellFields(std::vector<std::string> names, const std::string& name)
     list += (i > 0 ? ", " : "") + shortenText(names[i]);
   if (names.size() > most_shown)
     list += ", ...";
-  return " The option cells reads data of cells instead: " + list + ".";
+  return list;
 }
 
 } // namespace
 
-std::string
-describeUnknown(const Dataset& header, const std::string& name)
+std::vector<MessageValue>
+valuesOfUnknown(const Dataset& header, const std::string& name)
 {
   const Fields& fields = header.cloud.fields;
   std::vector<std::string> names;
@@ -195,26 +193,28 @@ describeUnknown(const Dataset& header, const std::string& name)
     if (!isPadding(field))
       names.push_back(field.name);
   const std::string similar = findSimilar(names, name);
-  return "There is no field " + quoteText(name) +
-         (similar.empty() ? "" : " (did you mean " + quoteText(similar) + "?)") +
-         "; the fields are " + describeFields(fields) + "." +
-         describeCellFields(header.cell_fields, name);
+  return {{"field", shortenText(name)},
+          {"has_similar", !similar.empty()},
+          {"similar", shortenText(similar)},
+          {"fields", describeFields(fields)},
+          {"has_cell_fields", !header.cell_fields.empty()},
+          {"cell_fields", describeCellFields(header.cell_fields, name)}};
 }
 
-std::string
-describeUnknownFunction(const std::string& name)
+std::vector<MessageValue>
+valuesOfUnknownFunction(const std::string& name)
 {
   std::vector<std::string> names = listFunctions();
   for (const auto& derivative : derivatives)
     names.emplace_back(derivative.first);
   const std::string similar = findSimilar(names, name);
-  if (!similar.empty())
-    return "There is no function " + quoteText(name) + "; did you mean " + similar +
-           "?";
   std::string list;
   for (const std::string& known : names)
     list += (list.empty() ? "" : ", ") + known;
-  return "There is no function " + quoteText(name) + "; there are " + list + ".";
+  return {{"function", shortenText(name)},
+          {"has_similar", !similar.empty()},
+          {"similar", similar},
+          {"functions", list}};
 }
 
 } // namespace pcl_uvol

@@ -45,12 +45,12 @@ withoutQuotes(const std::vector<pcl::PCLPointField>& fields,
 std::optional<Derivative>
 findDerivative(const std::string& name);
 
-/** What is said of a name that is no field. */
-std::string
-describeUnknown(const Dataset& header, const std::string& name);
+/** What a message holds of a name that is no field. */
+std::vector<MessageValue>
+valuesOfUnknown(const Dataset& header, const std::string& name);
 
-/** What is said of a function that is none. */
-std::string
-describeUnknownFunction(const std::string& name);
+/** What a message holds of a function that is none. */
+std::vector<MessageValue>
+valuesOfUnknownFunction(const std::string& name);
 
 } // namespace pcl_uvol

@@ -31,25 +31,26 @@ makeParser()
   return parser;
 }
 
-std::string
+/** The code of the message. */
+const char*
 explain(const mu::ParserError& error)
 {
   switch (error.GetCode()) {
   case mu::ecTOO_MANY_PARAMS:
-    return "a function has too many arguments";
+    return "too_many_arguments";
   case mu::ecTOO_FEW_PARAMS:
-    return "a function has too few arguments";
+    return "too_few_arguments";
   case mu::ecUNEXPECTED_ARG_SEP:
   case mu::ecUNEXPECTED_ARG:
-    return "a comma stands where no function has arguments";
+    return "misplaced_comma";
   case mu::ecUNEXPECTED_CONDITIONAL:
   case mu::ecMISSING_ELSE_CLAUSE:
   case mu::ecMISPLACED_COLON:
-    return "? and : do not belong together";
+    return "misplaced_condition";
   case mu::ecEXPRESSION_TOO_LONG:
-    return "it is too long";
+    return "program_too_long";
   default:
-    return "it cannot be computed";
+    return "not_computable";
   }
 }
 
@@ -78,8 +79,7 @@ Program::Program(const std::string& text, std::size_t variables)
     parser_->SetExpr(text);
     parser_->Eval(); // parses
     if (parser_->GetNumResults() != 1)
-      throw ProgramError{"a comma stands where no function has arguments",
-                         std::min(text.find(','), text.size())};
+      throw ProgramError{"misplaced_comma", std::min(text.find(','), text.size())};
   }
   catch (const mu::ParserError& error) {
     throw ProgramError{explain(error), static_cast<std::size_t>(error.GetPos())};

@@ -19,7 +19,7 @@ listFunctions();
 
 /** Why a program is none. */
 struct ProgramError {
-  std::string reason;
+  const char* code;  ///< of the message
   std::size_t place; ///< in the program
 };
 

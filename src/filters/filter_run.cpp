@@ -136,8 +136,8 @@ visiblePoints(vtkDataSet& input)
       vtkDataSetAttributes::DUPLICATEPOINT | vtkDataSetAttributes::HIDDENPOINT;
   vtkUnsignedCharArray* const ghosts = input.GetPointGhostArray();
   if (input.GetNumberOfPoints() > std::numeric_limits<int>::max())
-    throw InvalidArgument(std::to_string(input.GetNumberOfPoints()) +
-                          " points are more than PCL can number: take them in pieces.");
+    throw InvalidArgument("cloud_beyond_numbers",
+                          {{"points", input.GetNumberOfPoints()}});
   std::vector<int> visible;
   visible.reserve(static_cast<std::size_t>(input.GetNumberOfPoints()));
   for (vtkIdType i = 0; i < input.GetNumberOfPoints(); ++i)

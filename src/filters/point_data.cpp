@@ -346,7 +346,7 @@ Dataset
 toPointCloud(vtkDataSet* data)
 {
   if (!data)
-    throw InvalidArgument("There are no VTK data to make a cloud of.");
+    throw InvalidArgument("no_vtk_data", {});
   PointArrays points = collectPoints(*data);
   for (const auto& array : points.others)
     points.dataset.notes.push_back(

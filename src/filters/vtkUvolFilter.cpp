@@ -86,29 +86,26 @@ vtkUvolFilter::FieldToProcess(int index,
       this->GetInputAbstractArrayToProcess(index, &input, association);
   const std::string asked_for = describeChoice(choice);
   if (association != vtkDataObject::FIELD_ASSOCIATION_POINTS)
-    throw InvalidArgument("The " + asked_for +
-                          " was not chosen among those of points, " +
-                          "which it has to be: vtkCellDataToPointData makes such of "
-                          "those of cells.");
+    throw InvalidArgument("array_not_of_points", {{"array", asked_for}});
   if (!array)
-    throw InvalidArgument("There is no " + asked_for + " of points: choose one by " +
-                          "SetInputArrayToProcess; those of numbers are " +
-                          describeArrays(points) + ".");
+    throw InvalidArgument("no_such_array",
+                          {{"array", asked_for}, {"arrays", describeArrays(points)}});
   const auto found =
       std::find_if(points.numbers.begin(),
                    points.numbers.end(),
                    [&](const auto& numbers) { return numbers.array == array; });
   if (found == points.numbers.end())
-    throw InvalidArgument("The " + asked_for + " is a " + array->GetClassName() +
-                          " of " + std::to_string(array->GetNumberOfTuples()) +
-                          " tuples for " + std::to_string(input.GetNumberOfPoints()) +
-                          " points, not one of numbers for each; those are " +
-                          describeArrays(points) + ".");
+    throw InvalidArgument("array_of_other_points",
+                          {{"array", asked_for},
+                           {"type", array->GetClassName()},
+                           {"tuples", array->GetNumberOfTuples()},
+                           {"points", input.GetNumberOfPoints()},
+                           {"arrays", describeArrays(points)}});
   const int components = array->GetNumberOfComponents();
   if (component >= components)
-    throw InvalidArgument("The " + asked_for + " has " + std::to_string(components) +
-                          " components: there is no component " +
-                          std::to_string(component) + " (from 0).");
+    throw InvalidArgument(
+        "no_such_component",
+        {{"array", asked_for}, {"components", components}, {"component", component}});
   const auto& fields = points.dataset.cloud.fields;
   const auto nameOf = [&](std::size_t i) {
     return fields[found->first_field + i].name;

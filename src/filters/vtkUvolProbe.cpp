@@ -192,7 +192,7 @@ vtkUvolProbe::ReadSource(vtkDataSet& source, Report& report)
   read->asked_for = parameters;
   read->visible = pcl_uvol::visiblePoints(source);
   if (read->visible.empty())
-    throw pcl_uvol::InvalidArgument("The source has no points to interpolate between.");
+    throw pcl_uvol::InvalidArgument("empty_source", {});
   read->dataset = pcl_uvol::collectPoints(source).dataset;
   read->made.warnings = read->dataset.notes;
   read->made.progress = report.progress;

@@ -166,8 +166,8 @@ findAnalyticField(const std::string& name)
       return field;
     names += (names.empty() ? "" : ", ") + std::string(field.name);
   }
-  throw InvalidArgument("There is no analytic field " + quoteText(name) +
-                        "; there are " + names + ".");
+  throw InvalidArgument("unknown_analytic_field",
+                        {{"field", shortenText(name)}, {"fields", names}});
 }
 
 bool

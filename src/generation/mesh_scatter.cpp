@@ -33,7 +33,7 @@ scatterOverMesh(const Mesh& mesh, std::uint64_t n, std::uint64_t seed)
     area_up_to[i] = area;
   }
   if (!(area > 0.0) || !std::isfinite(area))
-    throw InvalidArgument("The mesh has no area to spread points over.");
+    throw InvalidArgument("mesh_without_area", {});
   std::vector<MeshPoint> points(n);
   for (std::uint64_t i = 0; i < n; ++i) {
     const double target = area * (static_cast<double>(i) + uniformAt(seed, i, 0)) /

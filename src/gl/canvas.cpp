@@ -24,10 +24,8 @@ checkSize(const GlFunctions& gl, const View& view)
 {
   const int largest = findLargestImage(gl);
   if (std::max(view.width, view.height) > largest)
-    throw GlError("An image of " + std::to_string(view.width) + " x " +
-                  std::to_string(view.height) +
-                  " pixels is too large for this OpenGL, which has at most " +
-                  std::to_string(largest) + ": use a smaller one, or the cpu backend.");
+    throw GlError("gl_image_too_large",
+                  {{"width", view.width}, {"height", view.height}, {"most", largest}});
 }
 
 } // namespace

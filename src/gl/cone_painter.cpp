@@ -36,11 +36,9 @@ checkSize(const GlFunctions& gl, const GridShape& shape)
   gl.GetIntegerv(GL_MAX_RECTANGLE_TEXTURE_SIZE, largest + 2);
   const GLint side = *std::min_element(largest, largest + 3);
   if (std::max(shape.cells[0], shape.cells[1]) > static_cast<std::uint32_t>(side))
-    throw GlError("Layers of " + std::to_string(shape.cells[0]) + " x " +
-                  std::to_string(shape.cells[1]) +
-                  " cells are too large for this OpenGL, which draws at most " +
-                  std::to_string(side) +
-                  " along a side: use fewer cells, or the FeatureTransform.");
+    throw GlError(
+        "gl_layers_too_large",
+        {{"width", shape.cells[0]}, {"height", shape.cells[1]}, {"most", side}});
 }
 
 /** Undo what others who use the context may have set. */

@@ -5,7 +5,6 @@
 #include "gl/errors.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <string>
 
@@ -81,8 +80,7 @@ drawLayers(const GlFunctions& gl,
     double farthest = draw();
     while (std::isinf(farthest)) {
       if (radius > largest_radius)
-        throw GlError("OpenGL leaves parts of a layer open: use another driver, or the "
-                      "FeatureTransform.");
+        throw GlError("gl_layer_left_open", {});
       radius *= radius_growth;
       farthest = draw();
     }
@@ -102,17 +100,14 @@ ConicSections::ConicSections(const std::shared_ptr<GlContext>& context,
     , first_triangles_(first_triangles)
 {
   if (!context)
-    throw InvalidArgument(
-        "Conic sections are drawn in an OpenGL context: create one by "
-        "createHeadlessContext().");
+    throw InvalidArgument("conic_sections_without_context", {});
   if (!(inner_radius >= 1.0 && inner_radius <= largest_inner_radius))
-    throw InvalidArgument("The first ring of a conic section has a radius of 1 to " +
-                          std::to_string(std::lround(largest_inner_radius)) +
-                          " cells, not " + std::to_string(inner_radius) + ".");
+    throw InvalidArgument("bad_first_ring_radius",
+                          {{"most", largest_inner_radius}, {"radius", inner_radius}});
   if (first_triangles < 3 || first_triangles > most_first_triangles)
-    throw InvalidArgument("The first ring of a conic section has 3 to " +
-                          std::to_string(most_first_triangles) + " triangles, not " +
-                          std::to_string(first_triangles) + ".");
+    throw InvalidArgument(
+        "bad_first_ring_triangles",
+        {{"most", most_first_triangles}, {"triangles", first_triangles}});
 }
 
 std::vector<std::uint32_t>

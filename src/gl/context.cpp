@@ -74,28 +74,24 @@ GlContext::identify()
   version_ = text(GL_VERSION);
   renderer_ = text(GL_RENDERER);
   if (version_.empty() || get_integer == nullptr)
-    throw GlError("The context \"" + name_ +
-                  "\" does not answer: make it current, or use the cpu backend.");
+    throw GlError("gl_context_silent", {{"context", name_}});
   GLint major = 0, minor = 0;
   get_integer(GL_MAJOR_VERSION, &major);
   get_integer(GL_MINOR_VERSION, &minor);
   if (10 * major + minor < least_version)
-    throw GlError("The context \"" + name_ + "\" has OpenGL " + version_ +
-                  ", but 3.3 is needed: use a newer driver, or the cpu backend.");
+    throw GlError("gl_context_too_old", {{"context", name_}, {"version", version_}});
 }
 
 std::shared_ptr<GlContext>
 createHeadlessContext(const std::string& name, std::optional<int> card)
 {
   if (card && name != "egl")
-    throw InvalidArgument("A graphics card is chosen for \"egl\" only, not for \"" +
-                          name + "\".");
+    throw InvalidArgument("gl_card_without_egl", {{"context", name}});
   if (name == "osmesa")
     return createOsMesaContext();
   if (name == "egl")
     return createEglContext(EglDevice::Any, "", card);
-  throw InvalidArgument("There is no context \"" + name +
-                        "\": use \"osmesa\" or \"egl\".");
+  throw InvalidArgument("unknown_gl_context", {{"context", name}});
 }
 
 std::shared_ptr<GlContext>

@@ -59,8 +59,7 @@ wrapCurrentContext(const std::string& name)
           reinterpret_cast<GlContext::Function (*)(const char*)>(found);
       return wrapCurrentContext(name, get_function);
     }
-  throw GlError("No context of EGL, OSMesa or GLX is current where \"" + name +
-                "\" is drawn: make it current, or use the cpu backend.");
+  throw GlError("gl_no_current_context", {{"context", name}});
 }
 
 } // namespace pcl_uvol

@@ -72,12 +72,11 @@ public:
     run([&] {
       if (!createOn(device, card)) {
         destroy();
-        const std::string of =
-            card ? "of graphics card " + std::to_string(*card) + ", counted from 0"
-            : device == EglDevice::Hardware ? "of a graphics card"
-                                            : "here";
-        throw GlError("EGL has no OpenGL 3.3 core context " + of + ": " + egl_advice +
-                      ".");
+        throw GlError("egl_without_context",
+                      {{"has_card", card.has_value()},
+                       {"card", card.value_or(0)},
+                       {"is_hardware", device == EglDevice::Hardware},
+                       {"advice", egl_advice}});
       }
     });
   }

@@ -16,10 +16,9 @@ checkErrors(const GlFunctions& gl, const std::string& less, const std::string& i
 {
   const GLenum error = gl.GetError();
   if (error == GL_OUT_OF_MEMORY)
-    throw GlError("OpenGL is out of memory: use " + less + ", or " + instead + ".");
+    throw GlError("gl_out_of_memory", {{"less", less}, {"instead", instead}});
   if (error != GL_NO_ERROR)
-    throw GlError("OpenGL fails with error " + std::to_string(error) +
-                  ": use another driver, or " + instead + ".");
+    throw GlError("gl_failed", {{"error", error}, {"instead", instead}});
 }
 
 } // namespace pcl_uvol

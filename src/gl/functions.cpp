@@ -11,9 +11,10 @@ load(const GlContext& context, const char* name, Function& function)
 {
   function = reinterpret_cast<Function>(context.getFunction(name));
   if (function == nullptr)
-    throw GlError("The context \"" + context.getName() + "\" (OpenGL " +
-                  context.getVersion() + ") has no function " + name +
-                  ": use another driver, or the cpu backend.");
+    throw GlError("gl_context_without_function",
+                  {{"context", context.getName()},
+                   {"version", context.getVersion()},
+                   {"function", name}});
 }
 
 } // namespace

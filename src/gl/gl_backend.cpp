@@ -59,8 +59,7 @@ struct GlBackend::Implementation {
 GlBackend::GlBackend(const std::shared_ptr<GlContext>& context)
 {
   if (!context)
-    throw InvalidArgument("An OpenGL backend needs a context: create one by "
-                          "createHeadlessContext().");
+    throw InvalidArgument("gl_backend_without_context", {});
   implementation_ = std::make_unique<Implementation>(context);
   setLargestSide(largest_side_);
 }
@@ -72,8 +71,7 @@ GlBackend::setLargestSide(int pixels)
 {
   constexpr int least = 256;
   if (pixels < least)
-    throw InvalidArgument("Tiles of a picture have sides of at least " +
-                          std::to_string(least) + " pixels.");
+    throw InvalidArgument("gl_tiles_too_small", {{"least", least}});
   largest_side_ = std::min(pixels, implementation_->largest_image);
 }
 

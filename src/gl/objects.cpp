@@ -52,8 +52,8 @@ compile(const GlFunctions& gl, GLenum kind, const std::string& source)
   gl.GetShaderiv(shader.get(), GL_COMPILE_STATUS, &compiled);
   if (compiled != GL_TRUE)
     throw GlError(
-        "The driver does not compile a shader, use the cpu backend instead: " +
-        readLog(shader.get(), gl.GetShaderiv, gl.GetShaderInfoLog));
+        "gl_shader_not_compiled",
+        {{"log", readLog(shader.get(), gl.GetShaderiv, gl.GetShaderInfoLog)}});
   return shader;
 }
 
@@ -154,8 +154,7 @@ makeFramebuffer(const GlFunctions& gl,
     gl.FramebufferTexture2D(
         GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_RECTANGLE, depth->get(), 0);
   if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-    throw GlError("The driver cannot draw into the buffers of this image: use a "
-                  "smaller image, or the cpu backend.");
+    throw GlError("gl_buffers_refused", {});
   return framebuffer;
 }
 
@@ -175,8 +174,9 @@ Program::Program(const GlFunctions& gl,
   GLint linked = GL_FALSE;
   gl.GetProgramiv(name_.get(), GL_LINK_STATUS, &linked);
   if (linked != GL_TRUE)
-    throw GlError("The driver does not link a shader, use the cpu backend instead: " +
-                  readLog(name_.get(), gl.GetProgramiv, gl.GetProgramInfoLog));
+    throw GlError(
+        "gl_shader_not_linked",
+        {{"log", readLog(name_.get(), gl.GetProgramiv, gl.GetProgramInfoLog)}});
 }
 
 } // namespace pcl_uvol

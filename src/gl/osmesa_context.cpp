@@ -81,12 +81,10 @@ private:
                               0};
     handle_ = osmesa_.create(attributes, nullptr);
     if (handle_ == nullptr)
-      throw GlError("OSMesa has no OpenGL 3.3 core context: install libosmesa6 of Mesa "
-                    "20 or newer, or use the cpu backend.");
+      throw GlError("osmesa_without_context", {});
     // A buffer of its own is asked for, although drawing goes to framebuffer objects.
     if (!osmesa_.makeCurrent(handle_, pixel_.data(), GL_UNSIGNED_BYTE, 1, 1))
-      throw GlError("OSMesa refuses to make its context current: use the egl or the "
-                    "cpu backend instead.");
+      throw GlError("osmesa_context_refused", {});
     identify();
   }
 

@@ -83,9 +83,7 @@ PointPass::upload(const SurfaceCloud& cloud)
   GLint largest = 0;
   gl_.GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &largest);
   if (cloud.size() > static_cast<std::size_t>(largest))
-    throw GlError("A cloud of " + std::to_string(cloud.size()) +
-                  " points is too large for this OpenGL, which draws at most " +
-                  std::to_string(largest) + ": use fewer points, or the cpu backend.");
+    throw GlError("gl_cloud_too_large", {{"points", cloud.size()}, {"most", largest}});
   revision_ = 0;
   for (int axis = 0; axis < 3; ++axis)
     fillBuffer(gl_, coordinates_[axis], cloud.getCoordinates(axis));

@@ -17,7 +17,8 @@ SharedLibrary::SharedLibrary(const std::vector<std::string>& names,
       return;
     }
   }
-  throw GlError("The library " + names.front() + " cannot be loaded: " + advice + ".");
+  throw GlError("gl_library_not_loaded",
+                {{"library", names.front()}, {"advice", advice}});
 }
 
 void*
@@ -25,8 +26,8 @@ SharedLibrary::find(const char* name) const
 {
   void* const symbol = dlsym(handle_, name);
   if (symbol == nullptr)
-    throw GlError("The library " + name_ + " has no function " + name +
-                  ": install a complete one, or use the cpu backend.");
+    throw GlError("gl_library_without_function",
+                  {{"library", name_}, {"function", name}});
   return symbol;
 }
 

@@ -43,7 +43,7 @@ struct BlockGrid {
         box.extend(place.cast<double>().eval());
     }
     if (box.isEmpty())
-      throw InvalidArgument("No sample has a finite position.");
+      throw InvalidArgument("no_finite_sample", {});
     double blocks = 1.0;
     Eigen::Array3d along;
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
@@ -51,8 +51,7 @@ struct BlockGrid {
       blocks *= along[axis];
     }
     if (!(blocks <= most_blocks))
-      throw InvalidArgument("There are more than 16,777,216 blocks in the box of the "
-                            "samples: larger blocks are needed.");
+      throw InvalidArgument("too_many_blocks", {});
     for (std::size_t axis = 0; axis < 3; ++axis)
       counts[axis] = static_cast<std::size_t>(along[static_cast<Eigen::Index>(axis)]);
     low = box.center() - 0.5 * ((along - 1.0) * sides.array()).matrix();
@@ -201,7 +200,7 @@ estimateBlockVolumes(const CloudView& samples,
 {
   const Eigen::Array3f& sides = parameters.sides;
   if (!(sides > 0.0f).all() || !sides.allFinite())
-    throw InvalidArgument("The sides of blocks must be finite and positive.");
+    throw InvalidArgument("block_sides_not_positive", {});
   const BlockGrid grid(samples, sides);
   InterpolationParameters kriging;
   kriging.fields = {parameters.field};
@@ -241,9 +240,7 @@ estimateBlockVolumes(const CloudView& samples,
   }
   found.known = blocks.size();
   if (blocks.empty())
-    throw InvalidArgument("No block can be estimated better than by the mean of all "
-                          "samples: all are outside of the data, or values are not "
-                          "alike at the distances between samples.");
+    throw InvalidArgument("no_block_estimated", {});
   const ErrorSum errors(blocks, variogram);
   for (const double isovalue : parameters.isovalues)
     found.isovalues.push_back(sumUp(blocks,

@@ -22,9 +22,8 @@ void
 checkFolds(std::size_t folds, std::size_t most, const char* what)
 {
   if (folds < 2 || folds > most)
-    throw InvalidArgument("The number of folds is " + std::to_string(folds) +
-                          ": it must be 2 to " + std::to_string(most) +
-                          ", the number of " + what + ".");
+    throw InvalidArgument("folds_not_allowed",
+                          {{"folds", folds}, {"most", most}, {"things", what}});
 }
 
 /** 0, 1, ... in an order that looks random. */

@@ -19,7 +19,7 @@ FoldSplit::FoldSplit(const pcl::Indices& indices,
   for (const int index : indices)
     (folds[static_cast<std::size_t>(index)] == fold ? left_out : rest).push_back(index);
   if (!left_out.empty() && rest.empty())
-    throw InvalidArgument("All samples are in one fold: divide them otherwise.");
+    throw InvalidArgument("single_fold", {});
   if (most == 0 || left_out.size() <= most)
     return;
   std::sort(left_out.begin(), left_out.end(), [](int a, int b) {

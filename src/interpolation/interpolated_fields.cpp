@@ -58,9 +58,8 @@ appendFields(const InterpolatedFields& fields, pcl::PCLPointCloud2& points)
 {
   const std::size_t count = static_cast<std::size_t>(points.width) * points.height;
   if (count != fields.size)
-    throw InvalidArgument("There are " + std::to_string(fields.size) +
-                          " interpolated values for " + std::to_string(count) +
-                          " points: ask for the values at these points.");
+    throw InvalidArgument("values_of_other_points",
+                          {{"values", fields.size}, {"points", count}});
   std::vector<NewField> added;
   for (std::size_t f = 0; f < fields.names.size(); ++f) {
     const std::string name =

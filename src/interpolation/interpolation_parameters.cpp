@@ -26,8 +26,8 @@ void
 check(bool is_allowed, const char* name, double value, const char* allowed)
 {
   if (!is_allowed)
-    throw InvalidArgument(std::string("The ") + name + " is " + std::to_string(value) +
-                          ": it must be " + allowed + ".");
+    throw InvalidArgument("interpolation_number",
+                          {{"number", name}, {"value", value}, {"allowed", allowed}});
 }
 
 void

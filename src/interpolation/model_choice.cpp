@@ -180,7 +180,7 @@ chooseModel(const CloudView& cloud,
   own.progress = report.progress;
   std::vector<Candidate> candidates = listCandidates(parameters.sph);
   pcl::Indices samples;
-  std::string error;
+  Message error("no_model_has_values", {});
   for (std::size_t fold = 0; fold < std::min(folds_tested, folds.size()); ++fold) {
     const detail::FoldSplit split(indices, folds, fold, most_of_a_fold);
     if (split.left_out.empty())
@@ -193,7 +193,7 @@ chooseModel(const CloudView& cloud,
       }
       catch (const InvalidArgument& exception) {
         candidate.is_possible = false;
-        error = exception.message();
+        error = exception.asMessage();
       }
   }
   const std::size_t half = samples.size() * tested.fields.size() / 2;
@@ -205,9 +205,7 @@ chooseModel(const CloudView& cloud,
                                   }),
                    candidates.end());
   if (candidates.empty() || samples.empty())
-    throw InvalidArgument(error.empty() ? "No model gives values at the samples that "
-                                          "are left out: name the model to use."
-                                        : error);
+    throw InvalidArgument(error);
 
   const auto measured = readValues(cloud, tested.fields, samples);
   ModelChoice choice;

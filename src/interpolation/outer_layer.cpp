@@ -96,16 +96,16 @@ addOuterLayer(Dataset& dataset,
 {
   const auto* const stored = findField(dataset.cloud.fields, field);
   if (!stored || stored->count > 1)
-    throw InvalidArgument("A value outside needs a field of single numbers, and " +
-                          quoteText(field) + " is none; the fields are " +
-                          describeFields(dataset.cloud.fields) + ".");
+    throw InvalidArgument("no_field_for_value_outside",
+                          {{"field", shortenText(field)},
+                           {"fields", describeFields(dataset.cloud.fields)}});
   std::ostringstream text;
   text.precision(17);
   text << value;
   std::array<std::uint8_t, 8> number{};
   if (!parseNumber(text.str(), stored->datatype, number.data()))
-    throw InvalidArgument("The field " + quoteText(field) + " cannot hold the value " +
-                          text.str() + " outside.");
+    throw InvalidArgument("value_outside_not_held",
+                          {{"field", shortenText(field)}, {"value", value}});
   const CloudView cloud = viewOf(dataset.cloud);
   std::vector<std::uint32_t> use(cloud.count);
   std::iota(use.begin(), use.end(), 0u);
@@ -114,8 +114,8 @@ addOuterLayer(Dataset& dataset,
   const auto samples = SampleSet::build(
       cloud.xyz(0), cloud.stride(), use, Position{{1.0f, 1.0f, 1.0f}}, threads, own);
   if (samples->size() <= empty_neighbors)
-    throw InvalidArgument("A value outside needs more than " +
-                          std::to_string(empty_neighbors) + " distinct samples.");
+    throw InvalidArgument("few_samples_for_value_outside",
+                          {{"samples", empty_neighbors}});
   const std::vector<Outer> outer = findOuter(*samples, threads, report);
   const std::size_t step = dataset.cloud.point_step, before = dataset.cloud.width;
   checkSize(before + outer.size(), step);

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -38,8 +37,7 @@ checkBox(const Bounds& box)
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (!std::isfinite(box.high[axis] - box.low[axis]) ||
         box.high[axis] < box.low[axis])
-      throw InvalidArgument("The box of a grid has to be finite, and its second corner "
-                            "above the first.");
+      throw InvalidArgument("unordered_box", {});
     is_empty = is_empty && box.high[axis] == box.low[axis];
   }
   if (is_empty)
@@ -117,12 +115,13 @@ cutEdges(const Vector3d& point, const Vector3d& normal, const Bounds& box)
 [[noreturn]] void
 throwMiss(const Bounds& box)
 {
-  std::ostringstream text;
-  text << "The plane misses the box of the data, from";
-  for (const Place& corner : {box.low, box.high})
-    text << (corner == box.low ? " (" : " to (") << corner[0] << ", " << corner[1]
-         << ", " << corner[2] << ")";
-  throw InvalidArgument(text.str() + ".");
+  throw InvalidArgument("plane_misses_data",
+                        {{"low_x", box.low[0]},
+                         {"low_y", box.low[1]},
+                         {"low_z", box.low[2]},
+                         {"high_x", box.high[0]},
+                         {"high_y", box.high[1]},
+                         {"high_z", box.high[2]}});
 }
 
 /** The axis of the coordinates that a unit vector is, 3 for another one. */
@@ -173,7 +172,7 @@ findBounds(const CloudView& cloud)
     }
   }
   if (!(box.low[0] <= box.high[0]))
-    throw InvalidArgument("There is no point with finite x, y, z.");
+    throw InvalidArgument("no_finite_point", {});
   return box;
 }
 
@@ -182,7 +181,7 @@ makeLine(const Place& from, const Place& to, std::size_t count)
 {
   const Vector3d way = vectorOf(to) - vectorOf(from);
   if (!(way.norm() > 0.0) || !way.allFinite() || count < 2)
-    throw InvalidArgument("A line has two different ends, and at least 2 points.");
+    throw InvalidArgument("line_without_ends", {});
   QueryLattice line;
   line.origin = from;
   line.steps[0] = placeOf(way / static_cast<double>(count - 1));
@@ -195,7 +194,7 @@ makeCubicGrid(const Bounds& box, std::size_t count)
 {
   checkBox(box);
   if (count < 2)
-    throw InvalidArgument("A grid has at least 2 points along its longest side.");
+    throw InvalidArgument("few_points_of_grid", {});
   const double longest =
       std::max({extentOf(box, 0), extentOf(box, 1), extentOf(box, 2)});
   const double spacing = longest / static_cast<double>(count - 1);
@@ -220,15 +219,13 @@ makeGrid(const Bounds& box, const std::array<std::size_t, 3>& counts)
   QueryLattice grid;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (counts[axis] < 1)
-      throw InvalidArgument("A grid has at least one point along each axis.");
+      throw InvalidArgument("no_points_along_axis", {});
     const double extent = extentOf(box, axis);
     const auto gaps = static_cast<double>(std::max<std::size_t>(counts[axis] - 1, 1));
     // Steps of axes without extent have to be of some length.
     const double spacing = (extent > 0.0 ? extent : longest) / gaps;
     if (extent == 0.0 && counts[axis] > 1)
-      throw InvalidArgument(
-          "The box of the grid has no extent along an axis of which " +
-          std::to_string(counts[axis]) + " points are asked for: one fits.");
+      throw InvalidArgument("flat_box", {{"points", counts[axis]}});
     setAxis(grid, box, axis, counts[axis], spacing);
   }
   return grid;
@@ -241,9 +238,9 @@ makeSlice(const Plane& plane,
 {
   Vector3d normal = vectorOf(plane.normal).stableNormalized();
   if (!(normal.norm() > 0.5) || !vectorOf(plane.point).allFinite())
-    throw InvalidArgument("The normal of a plane has to be finite and not zero.");
+    throw InvalidArgument("plane_without_normal", {});
   if (std::min(counts[0], counts[1]) < 2)
-    throw InvalidArgument("A slice has at least 2 points along each side.");
+    throw InvalidArgument("few_points_of_slice", {});
   const Vector3d point = vectorOf(plane.point);
   const std::vector<Vector3d> cuts = cutEdges(point, normal, box);
   if (cuts.empty())
@@ -262,7 +259,7 @@ makeSlice(const Plane& plane,
   const double spacing = std::max(extent[0] / static_cast<double>(counts[0] - 1),
                                   extent[1] / static_cast<double>(counts[1] - 1));
   if (!(spacing > 0.0))
-    throw InvalidArgument("The plane touches the data in one point only.");
+    throw InvalidArgument("plane_touches_data", {});
 
   constexpr double tolerance = 1e-9; // rounding shall not lose the last place
   Slice slice;

@@ -118,9 +118,7 @@ computeDerivatives(const CloudView& cloud,
 {
   const auto use = pointsWithValues(columns, cloud.count);
   if (use.size() < least_samples)
-    throw InvalidArgument("Derivatives need at least four samples with values, and "
-                          "there are " +
-                          std::to_string(use.size()) + ".");
+    throw InvalidArgument("few_samples_for_derivatives", {{"samples", use.size()}});
   const auto frames = findFrames(columns);
   const SampledFields sampled =
       gatherFields(SampleSet::build(cloud.xyz(0),
@@ -134,9 +132,7 @@ computeDerivatives(const CloudView& cloud,
                    report);
   const SampleSet& samples = *sampled.samples;
   if (samples.size() < least_samples)
-    throw InvalidArgument("Derivatives need samples at four places or more, and there "
-                          "are " +
-                          std::to_string(samples.size()) + ".");
+    throw InvalidArgument("few_places_for_derivatives", {{"places", samples.size()}});
   std::atomic<std::uint64_t> reduced{0}, unknown{0};
   const auto per_length = static_cast<double>(samples.getUnit().factor);
   StepTimer step(report, "derivatives", samples.size());

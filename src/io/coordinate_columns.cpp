@@ -442,13 +442,14 @@ findChosenColumns(const std::array<std::string, 3>& chosen,
     else if (parseCount(chosen[axis], number) && number < names.size())
       columns[axis] = static_cast<std::size_t>(number);
     else
-      throw InvalidArgument(
-          "there is no column " + quoteText(chosen[axis]) +
-          " for a coordinate; columns are " + quoteText(names.front()) + " to " +
-          quoteText(names.back()) + ", or 0 to " + std::to_string(names.size() - 1));
+      throw InvalidArgument("no_coordinate_column",
+                            {{"column", shortenText(chosen[axis])},
+                             {"first", shortenText(names.front())},
+                             {"last", shortenText(names.back())},
+                             {"most", names.size() - 1}});
   }
   if (std::set<std::size_t>(columns.begin(), columns.end()).size() < 3)
-    throw InvalidArgument("the coordinates need three different columns");
+    throw InvalidArgument("repeated_coordinate_column", {});
   return columns;
 }
 

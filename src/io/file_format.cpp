@@ -152,18 +152,12 @@ findFormat(const std::string& path, const LoadOptions& options)
                                                   ending) != std::end(grid_endings);
   const FileFormat format = is_grid ? FileFormat::Vtk : detectFormat(path);
   if (options.xyz_columns != LoadOptions().xyz_columns && format != FileFormat::Text)
-    throw InvalidArgument(
-        "Columns of coordinates can be chosen in text files only, and '" +
-        printable(path) + "' is none.");
+    throw InvalidArgument("columns_of_no_text", {{"path", printable(path)}});
   if (!options.particles.empty() && format != FileFormat::Gadget &&
       format != FileFormat::Hdf5)
-    throw InvalidArgument("Particles can be chosen in snapshots only, and '" +
-                          printable(path) + "' is none.");
+    throw InvalidArgument("particles_of_no_snapshot", {{"path", printable(path)}});
   if (options.cells && format != FileFormat::Vtk)
-    throw InvalidArgument(
-        "Cells can be chosen in files of VTK but .vtkhdf, Exodus, EnSight and "
-        "OpenFOAM only, and '" +
-        printable(path) + "' is none.");
+    throw InvalidArgument("cells_of_no_grid", {{"path", printable(path)}});
   return format;
 }
 

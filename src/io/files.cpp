@@ -26,20 +26,23 @@ constexpr std::size_t block_bytes = std::size_t(1) << 20;
 void
 throwUnreadable(const std::string& path, const std::string& reason)
 {
-  throw IOError("Cannot read '" + printable(path) + "': " + printable(reason) + ".");
+  throw IOError("unreadable",
+                {{"path", printable(path)}, {"reason", printable(reason)}});
 }
 
 void
 throwUnreadable(const std::string& path, std::size_t line, const std::string& reason)
 {
-  throw IOError("Cannot read '" + printable(path) + "', line " + std::to_string(line) +
-                ": " + printable(reason) + ".");
+  throw IOError(
+      "unreadable_line",
+      {{"path", printable(path)}, {"line", line}, {"reason", printable(reason)}});
 }
 
 void
 throwUnwritable(const std::string& path, const std::string& reason)
 {
-  throw IOError("Cannot write '" + printable(path) + "': " + printable(reason) + ".");
+  throw IOError("unwritable",
+                {{"path", printable(path)}, {"reason", printable(reason)}});
 }
 
 std::string

@@ -29,9 +29,7 @@ checkResolution(double dots_per_inch)
 {
   constexpr double largest = 1e6;
   if (!(dots_per_inch == 0.0 || (dots_per_inch >= 1.0 && dots_per_inch <= largest)))
-    throw InvalidArgument("A picture has 1 to a million dots per inch, or 0 where it "
-                          "does not say how many, not " +
-                          std::to_string(dots_per_inch) + ".");
+    throw InvalidArgument("resolution_not_allowed", {{"resolution", dots_per_inch}});
 }
 
 /** A file of libpng in memory. */
@@ -43,8 +41,7 @@ public:
             PNG_LIBPNG_VER_STRING,
             nullptr,
             [](png_structp, png_const_charp message) {
-              throw IOError(
-                  "libpng could not encode a picture: " + std::string(message) + '.');
+              throw IOError("png_not_encoded", {{"reason", message}});
             },
             [](png_structp, png_const_charp) {}))
       , info_(png_ == nullptr ? nullptr : png_create_info_struct(png_))
@@ -134,7 +131,7 @@ encodePng(const Image& image, const std::vector<ImageText>& texts, double dots_p
 {
   checkResolution(dots_per_inch);
   if (image.color.size() != 4 * image.pixels() || image.pixels() == 0)
-    throw InvalidArgument("The image has no pixels.");
+    throw InvalidArgument("image_without_pixels", {});
   return PngWriter().write(image, texts, dots_per_inch);
 }
 

@@ -18,8 +18,7 @@ constexpr std::uint64_t row_span = 256;
 [[noreturn]] void
 throwNoPoint(std::uint64_t point, std::uint64_t size)
 {
-  throw InvalidArgument("There is no point " + std::to_string(point) +
-                        " in a file of " + std::to_string(size) + ".");
+  throw InvalidArgument("no_such_point", {{"point", point}, {"points", size}});
 }
 
 } // namespace
@@ -88,7 +87,7 @@ PointStream::readRows(const std::vector<std::uint64_t>& points,
                       pcl::PCLPointCloud2& rows)
 {
   if (!std::is_sorted(points.begin(), points.end()))
-    throw InvalidArgument("The points to be read are not in ascending order.");
+    throw InvalidArgument("unsorted_points", {});
   if (!points.empty() && points.back() >= size())
     throwNoPoint(points.back(), size());
   const std::size_t step = getHeader().cloud.point_step;

@@ -44,9 +44,8 @@ void
 checkCount(std::uint64_t count)
 {
   if (count > most_points)
-    throw InvalidArgument("A process would have to take " + std::to_string(count) +
-                          " points, and can take " + std::to_string(most_points) +
-                          ": use more processes.");
+    throw InvalidArgument("too_many_points_for_process",
+                          {{"points", count}, {"most", most_points}});
 }
 
 /** A share of a number of things. */
@@ -64,7 +63,7 @@ loadRange(const std::string& path,
 {
   PointStream stream(path, options);
   if (stream.size() == 0)
-    throw InvalidArgument(path + " has no points.");
+    throw InvalidArgument("no_points", {{"path", path}});
   const std::uint64_t begin =
                           shareBegin(stream.size(), communicator.rank(), communicator),
                       end = shareBegin(
@@ -170,11 +169,11 @@ struct Layout {
     const auto describe = [](const auto& field, const auto& end) {
       return field == end ? "none" : describeFields({*field});
     };
-    throw InvalidArgument("The pieces '" + one.path + "' and '" + another.path +
-                          "' have different fields: where the one has " +
-                          describe(own, one.fields.end()) + ", the other has " +
-                          describe(its, another.fields.end()) +
-                          "; write all of them with the same arrays.");
+    throw InvalidArgument("pieces_of_other_fields",
+                          {{"one", one.path},
+                           {"other", another.path},
+                           {"fields", describe(own, one.fields.end())},
+                           {"other_fields", describe(its, another.fields.end())}});
   }
 
   /** Numbers of another piece would be taken for those of names.
@@ -185,10 +184,9 @@ struct Layout {
     for (const auto& [field, names] : labels)
       if (findLabels(fields, labels, field) &&
           !findLabels(other.fields, other.labels, field))
-        throw InvalidArgument("The field " + quoteText(field) +
-                              " holds names in the piece '" + path +
-                              "' and numbers in '" + other.path +
-                              "': join them to one file, where names may be numbers.");
+        throw InvalidArgument(
+            "names_in_one_piece",
+            {{"field", shortenText(field)}, {"path", path}, {"other", other.path}});
   }
 
   /** Take what another piece has.
@@ -253,11 +251,11 @@ public:
   {
     for (const Bytes& message : communicator_.allGather(layout_.toMessage()))
       layout_.join(Layout(message));
-    if (layout_.path.empty())
-      throw InvalidArgument(paths.size() == 1
-                                ? paths[0] + " has no points."
-                                : "None of the " + std::to_string(paths.size()) +
-                                      " pieces has points.");
+    if (layout_.path.empty()) {
+      if (paths.size() == 1)
+        throw InvalidArgument("no_points", {{"path", paths[0]}});
+      throw InvalidArgument("pieces_without_points", {{"pieces", paths.size()}});
+    }
     auto& cloud = part_.cloud;
     cloud.fields = layout_.fields;
     cloud.point_step = layout_.point_step;
@@ -423,7 +421,7 @@ loadPart(const std::vector<std::string>& paths,
          Communicator& communicator)
 {
   if (paths.empty())
-    throw InvalidArgument("No file is given to be read.");
+    throw InvalidArgument("no_file_to_read", {});
   if (paths.size() > 1 || io::findFormat(paths[0], options) == io::FileFormat::Vtk)
     return loadPieces(paths, options, communicator);
   Dataset part = loadRange(paths[0], options, communicator);

@@ -488,8 +488,7 @@ SceneReader::finish(const std::string& path, unsigned threads, Report& report)
 {
   Scene& scene = scene_.scene;
   if (clouds_.empty() && scene.spheres.empty() && scene.planes.empty())
-    throw IOError("'" + printable(path) +
-                  "' draws nothing: it has no cloud, sphere or plane.");
+    throw IOError("empty_scene", {{"path", printable(path)}});
   addClouds(clouds_, threads, report, scene_);
   const Eigen::Vector3d origin = Eigen::Map<Eigen::Vector3d>(scene_.origin.data());
   for (SphereObject& sphere : scene.spheres)

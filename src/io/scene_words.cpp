@@ -32,7 +32,9 @@ void
 throwAt(const ScenePlace& place, const std::string& reason)
 {
   const bool has_dot = !reason.empty() && reason.back() == '.';
-  throw IOError(place.text() + ": " + reason + (has_dot ? "" : "."));
+  throw IOError("scene_line",
+                {{"place", place.text()},
+                 {"reason", has_dot ? reason.substr(0, reason.size() - 1) : reason}});
 }
 
 std::string

@@ -16,9 +16,7 @@ loadLibrary()
   const void* const functions =
       library == nullptr ? nullptr : dlsym(library, "pcl_uvol_vtk_library");
   if (functions == nullptr)
-    throw IOError("The library for VTK, HDF5, NetCDF and text in pictures could not be "
-                  "loaded: it is not beside libpcl_uvol_io.so, or there is not enough "
-                  "memory.");
+    throw IOError("vtk_library_not_loaded", {});
   return *static_cast<const VtkLibrary*>(functions);
 }
 

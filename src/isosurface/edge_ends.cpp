@@ -22,8 +22,7 @@ findEdgeEnds(const std::vector<std::vector<GlobalIsopoint>>& isopoints)
   std::sort(points.begin(), points.end());
   points.erase(std::unique(points.begin(), points.end()), points.end());
   if (points.size() > std::numeric_limits<std::uint32_t>::max())
-    throw InvalidArgument("The isopoints lie between " + std::to_string(points.size()) +
-                          " points, more than one process can number.");
+    throw InvalidArgument("edge_ends_beyond_numbers", {{"points", points.size()}});
   const auto find_index = [&](std::uint64_t point) {
     return static_cast<std::uint32_t>(
         std::lower_bound(points.begin(), points.end(), point) - points.begin());

@@ -102,8 +102,8 @@ filterIsopoints(pcl::PointCloud<PointIso>& isopoints,
                 const std::function<bool(const PointIso&)>& keep)
 {
   if (isopoints.size() != edges.size())
-    throw InvalidArgument(std::to_string(isopoints.size()) + " isopoints cannot have " +
-                          std::to_string(edges.size()) + " edges.");
+    throw InvalidArgument("isopoints_of_other_edges",
+                          {{"isopoints", isopoints.size()}, {"edges", edges.size()}});
   std::size_t kept = 0;
   for (std::size_t i = 0; i < edges.size(); ++i)
     if (keep(isopoints[i])) {
@@ -123,13 +123,10 @@ interpolateFields(const CloudView& samples,
                   unsigned threads)
 {
   if (static_cast<std::size_t>(isopoints.width) * isopoints.height != edges.size())
-    throw InvalidArgument("interpolateFields needs one edge per isopoint: got " +
-                          std::to_string(edges.size()) + " edges.");
+    throw InvalidArgument("edges_of_other_isopoints", {{"edges", edges.size()}});
   for (const IsoEdge& edge : edges)
     if (edge.first >= samples.count || edge.second >= samples.count)
-      throw InvalidArgument(
-          "An edge points outside the samples: was interpolateFields given the cloud "
-          "that the isopoints were extracted from?");
+      throw InvalidArgument("edge_outside_samples", {});
 
   pcl::PCLPointCloud2 result;
   result.header = isopoints.header;

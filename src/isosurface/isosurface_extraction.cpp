@@ -32,21 +32,18 @@ void
 checkParameters(const IsosurfaceParameters& parameters)
 {
   if (parameters.isovalues.empty())
-    throw InvalidArgument(
-        "IsosurfaceExtraction has no isovalue: call setIsoValue or setIsoValues.");
+    throw InvalidArgument("extraction_without_isovalue", {});
   for (const double isovalue : parameters.isovalues) {
     if (!std::isfinite(isovalue))
-      throw InvalidArgument("The isovalue " + std::to_string(isovalue) +
-                            " is not a finite number.");
+      throw InvalidArgument("isovalue_not_finite", {{"isovalue", isovalue}});
     if (std::count(parameters.isovalues.begin(), parameters.isovalues.end(), isovalue) >
         1)
-      throw InvalidArgument("The isovalue " + describeNumbers({isovalue}).front() +
-                            " is given more than once.");
+      throw InvalidArgument("repeated_isovalue",
+                            {{"isovalue", describeNumbers({isovalue}).front()}});
   }
   for (const float factor : parameters.scale)
     if (!std::isfinite(factor) || factor <= 0.0f)
-      throw InvalidArgument("The scale " + std::to_string(factor) +
-                            " is not allowed: it must be finite and positive.");
+      throw InvalidArgument("scale_not_positive", {{"scale", factor}});
 }
 
 void

@@ -23,11 +23,11 @@ void
 checkParameters(const SampleMapParameters& parameters)
 {
   if (parameters.window < 0.0)
-    throw InvalidArgument("A window in time is a duration from 0.");
+    throw InvalidArgument("map_window_negative", {});
   if (parameters.most_samples == 0)
-    throw InvalidArgument("A map of samples needs room for at least one.");
+    throw InvalidArgument("map_without_room", {});
   if (!(parameters.cube >= 0.0) || !std::isfinite(parameters.cube))
-    throw InvalidArgument("The side of cubes is a length from 0.");
+    throw InvalidArgument("map_cube_not_allowed", {});
 }
 
 namespace detail {

@@ -75,18 +75,13 @@ InitialFunction::check() const
 {
   if (kind == InitialKind::Sphere &&
       (!first.allFinite() || !(radius > 0.0) || !std::isfinite(radius)))
-    throw InvalidArgument("The sphere that the level set starts from needs a finite "
-                          "centre and a radius above 0.");
+    throw InvalidArgument("initial_sphere_not_allowed", {});
   if (kind == InitialKind::Box &&
       (!first.allFinite() || !second.allFinite() || !(first < second).all()))
-    throw InvalidArgument(
-        "The box that the level set starts from needs finite corners, "
-        "the first below the second along every axis.");
+    throw InvalidArgument("initial_box_not_allowed", {});
   if (kind == InitialKind::Plane &&
       (!first.allFinite() || !second.allFinite() || !(second.matrix().norm() > 0.0)))
-    throw InvalidArgument(
-        "The plane that the level set starts from needs a finite point "
-        "and a normal that is not 0.");
+    throw InvalidArgument("initial_plane_not_allowed", {});
 }
 
 } // namespace pcl_uvol

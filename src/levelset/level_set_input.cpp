@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <string>
 
 namespace pcl_uvol {
@@ -28,9 +27,11 @@ refuseIsovalue(const LevelSetParameters& parameters,
 {
   const auto texts =
       describeNumbers({parameters.isovalue, frame.toInput(low), frame.toInput(high)});
-  throw NoLevelSet("The isovalue " + texts[0] + " does not part the values of " +
-                   parameters.field + ", which are in [" + texts[1] + ", " + texts[2] +
-                   "]: there is no surface to evolve.");
+  throw NoLevelSet("isovalue_beyond_values",
+                   {{"isovalue", texts[0]},
+                    {"field", parameters.field},
+                    {"low", texts[1]},
+                    {"high", texts[2]}});
 }
 
 std::vector<float>
@@ -43,9 +44,7 @@ readField(const CloudView& cloud, const LevelSetInput& input, const std::string&
   for (const std::uint32_t source : input.sources) {
     const double value = field.read(cloud.point(source));
     if (!std::isfinite(value))
-      throw InvalidArgument("The field " + field.getName() +
-                            " that the level set starts from is not finite "
-                            "everywhere.");
+      throw InvalidArgument("initial_field_not_finite", {{"field", field.getName()}});
     values.push_back(static_cast<float>(unit * value));
   }
   return values;
@@ -79,8 +78,7 @@ turnShape(const InitialFunction& initial, const detail::StretchAxes& axes)
   if (!axes.areTurned() || !initial.isShape())
     return turned;
   if (initial.kind == InitialKind::Box)
-    throw InvalidArgument("A level set that starts from a box goes without a rotation: "
-                          "its sides lie along x, y and z.");
+    throw InvalidArgument("initial_box_turned", {});
   turned.first = (axes.getRows() * initial.first.matrix()).array();
   if (initial.kind == InitialKind::Plane)
     turned.second = (axes.getRows() * initial.second.matrix()).array();
@@ -90,36 +88,28 @@ turnShape(const InitialFunction& initial, const detail::StretchAxes& axes)
 void
 checkParameters(const LevelSetParameters& parameters)
 {
-  const auto fail =
-      [](const std::string& what, auto given, const std::string& allowed) {
-        std::ostringstream text;
-        text << what << " is " << given << ": it must be " << allowed << ".";
-        throw InvalidArgument(text.str());
-      };
   if (!std::isfinite(parameters.isovalue))
-    throw InvalidArgument(
-        "LevelSetEvolution has no finite isovalue: call setIsoValue.");
+    throw InvalidArgument("level_set_without_isovalue", {});
   if (parameters.mu && !(*parameters.mu >= 0.0 && *parameters.mu <= 1.0))
-    fail("The weight mu", *parameters.mu, "in [0, 1]");
+    throw InvalidArgument("mu_out_of_range", {{"mu", *parameters.mu}});
   parameters.initial.check();
   turnShape(parameters.initial, detail::StretchAxes(parameters.rotation));
   for (int axis = 0; axis < 3; ++axis)
     if (!std::isfinite(parameters.scale[axis]) || parameters.scale[axis] <= 0.0f)
-      fail("The scale", parameters.scale[axis], "finite and positive");
+      throw InvalidArgument("level_set_scale_not_positive",
+                            {{"scale", parameters.scale[axis]}});
   const std::size_t least = derivativesOf(parameters.scheme);
   if (parameters.k < least)
-    fail("The number of neighbours",
-         parameters.k,
-         "at least " + std::to_string(least) + " with this scheme");
+    throw InvalidArgument("few_neighbors_for_scheme",
+                          {{"neighbors", parameters.k}, {"least", least}});
   if (parameters.max_steps == 0)
-    fail("The number of steps", parameters.max_steps, "at least 1");
+    throw InvalidArgument("no_level_set_steps", {});
   if (!(parameters.tolerance > 0.0))
-    fail("The tolerance", parameters.tolerance, "above 0");
+    throw InvalidArgument("level_set_tolerance_not_positive",
+                          {{"tolerance", parameters.tolerance}});
   if (parameters.band_width != 0.0 &&
       !(parameters.band_width >= 1.5 * level_set.band_margin))
-    fail("The width of the band",
-         parameters.band_width,
-         "at least 3 spacings, or 0 for none");
+    throw InvalidArgument("narrow_band", {{"width", parameters.band_width}});
 }
 
 LevelSetInput
@@ -140,10 +130,9 @@ readInput(const CloudView& cloud,
   report.count("no_value", indices.size() - use.size());
   report.count("samples", input.samples->size());
   if (input.samples->size() <= parameters.k)
-    throw InvalidArgument("There are " + std::to_string(input.samples->size()) +
-                          " distinct samples: a stencil of " +
-                          std::to_string(parameters.k) +
-                          " neighbours needs at least one more than that.");
+    throw InvalidArgument(
+        "few_samples_for_stencil",
+        {{"samples", input.samples->size()}, {"neighbors", parameters.k}});
   SampleValues scalar = gatherValues(*input.samples, values, threads, report);
   input.f = std::move(scalar.values);
   input.sources = std::move(scalar.sources);
@@ -170,13 +159,11 @@ readInput(const CloudView& cloud,
   input.crossing = std::move(tamed.crossing);
   input.had_spikes = tamed.had_spikes;
   if (input.crossing.empty())
-    throw InvalidArgument("Only outliers lie beyond the isovalue " +
-                          describeNumbers({parameters.isovalue})[0] +
-                          ", samples unlike all their neighbours: there is no surface "
-                          "to evolve. Extract it without smoothing.");
+    throw InvalidArgument("only_outliers_beyond_isovalue",
+                          {{"isovalue", describeNumbers({parameters.isovalue})[0]}});
   input.spacing = medianSpacing(*input.samples, input.crossing, parameters.k, threads);
   if (!(input.spacing > 0.0))
-    throw InvalidArgument("The samples at the surface have no extent.");
+    throw InvalidArgument("surface_samples_without_extent", {});
   return input;
 }
 

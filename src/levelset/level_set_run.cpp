@@ -153,8 +153,7 @@ private:
       phi_ = std::move(initial);
       const auto crossing = findCrossing(samples_, phi_, threads_);
       if (crossing.empty())
-        throw InvalidArgument("The function that the level set starts from has no zero "
-                              "level among the samples.");
+        throw InvalidArgument("start_without_zero_level", {});
       makeBand(crossing);
       if (parameters_.mu)
         summary_.noise = term_.noise / spacing_;
@@ -238,9 +237,7 @@ private:
     crossing_ = crossing;
     term_ = makeDataTerm(*band_, samples_, input_.f, threads_, report_);
     if (!(term_.slope > 0.0))
-      throw InvalidArgument("The values beside the isovalue " + describeIsovalue() +
-                            " do not change from sample to sample: a level set goes by "
-                            "their slope. Extract the isosurface without smoothing.");
+      throw InvalidArgument("no_slope_at_isovalue", {{"isovalue", describeIsovalue()}});
   }
 
   Band
@@ -328,9 +325,9 @@ private:
   {
     if (evolver_->isBounded(largest_phi_) && std::isfinite(step.change))
       return;
-    throw Diverged("The level set diverged in step " +
-                   std::to_string(summary_.steps.size() + 1) + ": " +
-                   adviseStability(parameters_) + ".");
+    throw Diverged("level_set_diverged",
+                   {{"step", summary_.steps.size() + 1},
+                    {"advice", adviseStability(parameters_)}});
   }
 
   /** Where the data bring their own slope back at once, distances and data would undo

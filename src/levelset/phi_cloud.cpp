@@ -13,10 +13,8 @@ pcl::PCLPointCloud2
 makePhiCloud(const CloudView& cloud, const std::vector<float>& phi)
 {
   if (phi.size() != cloud.count)
-    throw InvalidArgument(std::to_string(phi.size()) +
-                          " values of phi are not one for "
-                          "each of " +
-                          std::to_string(cloud.count) + " points.");
+    throw InvalidArgument("phi_of_other_points",
+                          {{"values", phi.size()}, {"points", cloud.count}});
   Fields fields;
   for (const char* const name : {"x", "y", "z", "phi"})
     appendField(fields, name, pcl::PCLPointField::FLOAT32);

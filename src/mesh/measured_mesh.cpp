@@ -37,10 +37,7 @@ findManifoldPieces(std::vector<Triangle>& triangles,
   splitPinchedVertices(triangles, sources.size(), sources);
   const ManifoldDefects defects = HalfEdges(triangles, sources.size()).getDefects();
   if (defects.edges > 0 || defects.vertices > 0)
-    throw InvalidArgument(
-        "At " + std::to_string(defects.edges) +
-        " edges triangles of the surface disagree about which side is outside: it has "
-        "no volume as it is, repair the mesh.");
+    throw InvalidArgument("contrary_triangles", {{"edges", defects.edges}});
   return findPieces(triangles, sources.size());
 }
 
@@ -281,14 +278,12 @@ checkTriangles(const CloudView& vertices, const std::vector<Triangle>& triangles
   for (const Triangle& triangle : triangles)
     for (const std::uint32_t vertex : triangle) {
       if (vertex >= vertices.count)
-        throw InvalidArgument("A triangle names vertex " + std::to_string(vertex) +
-                              ", but there are " + std::to_string(vertices.count) +
-                              ".");
+        throw InvalidArgument("triangle_beyond_vertices",
+                              {{"vertex", vertex}, {"vertices", vertices.count}});
       const float* const place = vertices.xyz(vertex);
       if (!std::isfinite(place[0]) || !std::isfinite(place[1]) ||
           !std::isfinite(place[2]))
-        throw InvalidArgument("Vertex " + std::to_string(vertex) +
-                              " of the surface is not finite.");
+        throw InvalidArgument("vertex_not_finite", {{"vertex", vertex}});
     }
 }
 

@@ -59,8 +59,7 @@ sortPoints(const CloudView& points,
     if (corners[i].place.allFinite() && !corners[i].normal.isZero())
       use.push_back(static_cast<std::uint32_t>(i));
   if (use.empty())
-    throw InvalidArgument("No point of the surface has a normal: normals tell where "
-                          "the surface goes, and which side is outside.");
+    throw InvalidArgument("surface_points_without_normal", {});
   SortedPoints sorted;
   sorted.samples = SampleSet::build(points.xyz(0),
                                     points.stride(),
@@ -250,15 +249,13 @@ measurePoints(const CloudView& points, unsigned threads, Report& report)
 {
   std::optional<std::vector<SurfaceCorner>> corners = readCorners(points);
   if (!corners)
-    throw InvalidArgument("The surface has neither triangles nor normals: uvol_normals "
-                          "estimates normals.");
+    throw InvalidArgument("surface_without_normals", {});
   const SortedPoints sorted = sortPoints(points, *corners, threads, report);
   const PointFans fans(*sorted.samples, sorted.corners, sorted.isovalues, threads);
   PointSurface made(sorted, fans, points.count);
   made.findPieces();
   if (made.surface.list.pieces.empty())
-    throw InvalidArgument("The points of the surface are too few, or too far from one "
-                          "another, to tell its area.");
+    throw InvalidArgument("surface_points_too_few", {});
   const auto alone = static_cast<double>(std::count(
       made.surface.list.of_vertex.begin(), made.surface.list.of_vertex.end(), -1));
   if (const double part = alone / static_cast<double>(points.count); part > most_alone)

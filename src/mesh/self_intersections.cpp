@@ -246,9 +246,7 @@ findSelfIntersections(const std::vector<Eigen::Vector3d>& places,
                 tellsOfIntersection(places, solid, i, other))
               found.push_back(std::minmax(number_of[i], number_of[other]));
           if ((total += found.size() - before) > most_pairs)
-            throw InvalidArgument("More than " + std::to_string(most_pairs) +
-                                  " pairs of triangles of the surface intersect: many "
-                                  "lie on one another, repair the mesh.");
+            throw InvalidArgument("too_many_intersections", {{"most", most_pairs}});
         }
         step.advance(end - begin);
       });

@@ -39,7 +39,7 @@ public:
       , triangles_(surface.triangles)
   {
     if (vertices_.count == 0)
-      throw InvalidArgument("A surface without points is no distance away.");
+      throw InvalidArgument("surface_without_points", {});
     if (!has_triangles_)
       for (std::uint32_t i = 0; i < vertices_.count; ++i)
         triangles_.push_back({i, i, i});

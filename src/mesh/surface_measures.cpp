@@ -495,12 +495,11 @@ SurfaceFigures
 SurfaceMeasures::compute()
 {
   if (!vertices_)
-    throw InvalidArgument("SurfaceMeasures has no surface: call setInputSurface.");
+    throw InvalidArgument("measures_without_surface", {});
   startReport();
   const StepTimer timer(report_, "measures");
   if (triangles_.empty() && samples_ && parameters_.field.empty())
-    throw InvalidArgument(
-        "Samples inside are found by triangles, and the surface has none.");
+    throw InvalidArgument("inside_without_triangles", {});
   CloudView vertices = viewOf(vertices_->cloud);
   vertices.fields = listNumberFields(*vertices_); // names have no mean
   const PeriodicBox box = findBox(*vertices_, samples_, parameters_.periodic);

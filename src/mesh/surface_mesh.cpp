@@ -38,16 +38,11 @@ checkParameters(const SurfaceMeshParameters& parameters)
   checkParameters(parameters.isosurface);
   const double length = parameters.meshing.edge_length;
   if (!(length >= 0.0) || !std::isfinite(length))
-    throw InvalidArgument("The edge length " + std::to_string(length) +
-                          " is not allowed: it must be a length from 0.");
+    throw InvalidArgument("edge_length_not_allowed", {{"length", length}});
   if (parameters.isosurface.interpolation == Interpolation::Linear)
-    throw InvalidArgument(
-        "A mesh needs interpolation by fits: between samples alone its "
-        "topology would not be that of the field.");
+    throw InvalidArgument("mesh_of_linear_interpolation", {});
   if (parameters.isosurface.neighbors != NeighborSource::KdTree)
-    throw InvalidArgument(
-        "A mesh is made from the cells of the kd-tree: neighbours from "
-        "Voronoi diagrams are of no use to it.");
+    throw InvalidArgument("mesh_of_voronoi_neighbors", {});
 }
 
 void

@@ -26,7 +26,7 @@ void
 check(int is_done)
 {
   if (is_done == 0)
-    throw Exception("MPI could not exchange messages between the processes.");
+    throw Exception("mpi_exchange_failed", {});
 }
 
 /** Messages on their way. */
@@ -148,7 +148,7 @@ void
 MpiCommunicator::proceed()
 {
   if (agree(false) < size())
-    throw OtherRankFailed("Process " + std::to_string(failed_) + " failed.");
+    throw OtherRankFailed("other_rank_failed", {{"rank", failed_}});
 }
 
 void
@@ -237,7 +237,7 @@ MpiCommunicator::split(std::size_t color)
       vtkSmartPointer<vtkMPIController>::Take(controller_.PartitionController(
           static_cast<int>(color), static_cast<int>(rank())));
   if (!group)
-    throw Exception("MPI could not form a group of processes.");
+    throw Exception("mpi_group_failed", {});
   return std::make_unique<MpiGroup>(group, largest_part_, *this);
 }
 

@@ -47,15 +47,15 @@ std::vector<ScalarField>
 resolveFields(const CloudView& cloud, const std::vector<std::string>& names)
 {
   if (names.empty())
-    throw InvalidArgument("No attributes were named: name one or more of the fields " +
-                          describeFields(cloud.fields) + ".");
+    throw InvalidArgument("no_attributes", {{"fields", describeFields(cloud.fields)}});
   std::vector<ScalarField> fields;
   for (const std::string& name : names) {
     const ScalarField field(cloud.fields, name);
     for (const ScalarField& other : fields)
       if (areSame(field, other))
-        throw InvalidArgument("The attributes " + quoteText(other.getName()) + " and " +
-                              quoteText(name) + " are the same: each counts once.");
+        throw InvalidArgument("same_attributes",
+                              {{"attribute", shortenText(other.getName())},
+                               {"other", shortenText(name)}});
     fields.push_back(field);
   }
   return fields;
@@ -126,8 +126,7 @@ dropConstants(std::vector<Attribute>& attributes,
   for (;;) {
     Rows rows = completeRows(attributes, count, threads);
     if (rows.empty())
-      throw InvalidArgument("None of the " + std::to_string(count) +
-                            " points has a finite value of every attribute.");
+      throw InvalidArgument("no_complete_point", {{"points", count}});
     const auto constant =
         std::stable_partition(attributes.begin(), attributes.end(), [&](const auto& a) {
           return !isConstant(a, rows);
@@ -138,8 +137,7 @@ dropConstants(std::vector<Attribute>& attributes,
       report.warn("constant_attribute", {{"attribute", attribute->name}});
     attributes.erase(constant, attributes.end());
     if (attributes.empty())
-      throw InvalidArgument("All attributes are the same at all points: nothing can be "
-                            "told apart by them.");
+      throw InvalidArgument("only_constant_attributes", {});
   }
 }
 
@@ -192,7 +190,7 @@ readAttributes(const CloudView& cloud,
   std::vector<Attribute> attributes =
       readColumns(cloud, use, names, is_standardized, threads);
   if (use.empty())
-    throw InvalidArgument("Attributes were asked for of an empty cloud.");
+    throw InvalidArgument("attributes_of_empty_cloud", {});
   const Rows rows = dropConstants(attributes, use.size(), threads, report);
   report.count("missing_values", use.size() - rows.size());
   AttributeTable table;

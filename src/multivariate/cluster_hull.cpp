@@ -221,9 +221,8 @@ makeClusterHull(const std::vector<Triangle>& surface,
   for (const Triangle& triangle : surface)
     for (const std::uint32_t corner : triangle)
       if (corner >= regions.size())
-        throw InvalidArgument("A triangle of the surface names vertex " +
-                              std::to_string(corner) + ", and there are " +
-                              std::to_string(regions.size()) + " regions.");
+        throw InvalidArgument("vertex_without_region",
+                              {{"vertex", corner}, {"regions", regions.size()}});
   const Pieces pieces(surface, regions);
   const auto& piece_of = pieces.getPieces();
   ClusterHull hull;

@@ -32,8 +32,7 @@ multiplyByProbabilities(const CloudView& cloud,
   const std::vector<float> probabilities = readField(cloud, indices, field);
   for (std::size_t i = 0; i < members.size(); ++i) {
     if (probabilities[i] < 0.0f || probabilities[i] > 1.0f)
-      throw InvalidArgument("The field " + field +
-                            " has values outside [0, 1]: it holds no probabilities.");
+      throw InvalidArgument("no_probabilities", {{"field", field}});
     members[i] *= probabilities[i];
   }
 }
@@ -49,8 +48,8 @@ detail::computeMembership(const CloudView& cloud,
                           Report& report)
 {
   if (labels.size() != cloud.count)
-    throw InvalidArgument("There are " + std::to_string(labels.size()) +
-                          " labels for " + std::to_string(cloud.count) + " points.");
+    throw InvalidArgument("labels_of_other_points",
+                          {{"labels", labels.size()}, {"points", cloud.count}});
   std::vector<std::int32_t> own;
   for (const auto index : indices)
     own.push_back(labels[static_cast<std::size_t>(index)]);

@@ -50,19 +50,16 @@ void
 checkSizes(const AttributeTable& table, const std::vector<std::int32_t>& labels)
 {
   if (table.rows() == 0 || table.columns() == 0)
-    throw InvalidArgument("A projection was asked for of a table with " +
-                          std::to_string(table.rows()) + " rows and " +
-                          std::to_string(table.columns()) +
-                          " attributes, and needs one of each at least.");
+    throw InvalidArgument("empty_attribute_table",
+                          {{"rows", table.rows()}, {"attributes", table.columns()}});
   if (table.values.size() != table.rows() * table.columns())
-    throw InvalidArgument("An attribute table of " + std::to_string(table.rows()) +
-                          " rows and " + std::to_string(table.columns()) +
-                          " attributes holds " + std::to_string(table.values.size()) +
-                          " values, and must hold one of each attribute per row.");
+    throw InvalidArgument("unfitting_attribute_table",
+                          {{"rows", table.rows()},
+                           {"attributes", table.columns()},
+                           {"values", table.values.size()}});
   if (labels.size() != table.rows())
-    throw InvalidArgument("There are " + std::to_string(labels.size()) +
-                          " cluster labels for " + std::to_string(table.rows()) +
-                          " rows of attributes, and must be as many.");
+    throw InvalidArgument("unfitting_cluster_labels",
+                          {{"labels", labels.size()}, {"rows", table.rows()}});
 }
 
 /** Rows of the noise, and then of the clusters by label. */

@@ -23,15 +23,13 @@ void
 checkParameters(const ClusteringParameters& parameters)
 {
   if (parameters.neighbors > most_neighbors)
-    throw InvalidArgument("Core distances reach to 0 to 1000 neighbours, not to " +
-                          std::to_string(parameters.neighbors) + ".");
+    throw InvalidArgument("too_many_core_neighbors",
+                          {{"neighbors", parameters.neighbors}});
   if (parameters.min_cluster_size == 1)
-    throw InvalidArgument("The smallest cluster has 2 points or more, not 1; 0 stands "
-                          "for the default.");
+    throw InvalidArgument("cluster_of_one_point", {});
   if (!(parameters.cut_distance >= 0.0) || !std::isfinite(parameters.cut_distance))
-    throw InvalidArgument("The distance at which clusters are cut is a number above 0, "
-                          "or 0 for none, not " +
-                          std::to_string(parameters.cut_distance) + ".");
+    throw InvalidArgument("cut_distance_not_allowed",
+                          {{"distance", parameters.cut_distance}});
 }
 
 /** More than chance brings together in noise, less than what stands out. */
@@ -139,7 +137,7 @@ countClusters(const Clustering& clustering,
                                               : "no_clusters",
                 {{"points", labels.size()},
                  {"min_size", min_size},
-                 {"distance", std::to_string(parameters.cut_distance)}});
+                 {"distance", parameters.cut_distance}});
   else if (2 * noise > labels.size())
     report.warn("mostly_noise", {{"noise", noise}, {"points", labels.size()}});
 }
@@ -156,7 +154,7 @@ clusterAttributes(const AttributeTable& table,
 {
   checkParameters(parameters);
   if (table.rows() == 0)
-    throw InvalidArgument("The clustering was given no points.");
+    throw InvalidArgument("no_points_to_cluster", {});
   const std::size_t min_size = parameters.min_cluster_size > 0
                                    ? parameters.min_cluster_size
                                    : usualSize(table.rows());

@@ -251,17 +251,16 @@ checkInput(std::size_t points,
            const std::vector<float>& smoothing_lengths)
 {
   if (values.size() != points || smoothing_lengths.size() != points)
-    throw InvalidArgument(
-        "There are " + std::to_string(values.size()) + " membership values and " +
-        std::to_string(smoothing_lengths.size()) + " smoothing lengths for " +
-        std::to_string(points) + " particles, and must be one of each per particle.");
+    throw InvalidArgument("unfitting_membership",
+                          {{"values", values.size()},
+                           {"lengths", smoothing_lengths.size()},
+                           {"particles", points}});
   const auto bad = std::find_if(values.begin(), values.end(), [](float value) {
     return !(value >= 0.0f && value <= 1.0f);
   });
   if (bad != values.end())
-    throw InvalidArgument("Membership lies in [0, 1], and is not " +
-                          std::to_string(*bad) + " as that of particle " +
-                          std::to_string(bad - values.begin()) + ".");
+    throw InvalidArgument("membership_out_of_range",
+                          {{"value", *bad}, {"particle", bad - values.begin()}});
 }
 
 } // namespace
@@ -282,8 +281,9 @@ membership(const std::vector<std::int32_t>& labels, std::int32_t cluster)
     list += (listed > 0 ? ", " : "") + std::to_string(*label);
   if (known.size() > listed)
     list += " and " + std::to_string(known.size() - listed) + " more";
-  throw InvalidArgument("No point is in cluster " + std::to_string(cluster) +
-                        "; the labels are: " + (known.empty() ? "none" : list) + ".");
+  throw InvalidArgument(
+      "no_such_cluster",
+      {{"cluster", cluster}, {"labels", known.empty() ? "none" : list}});
 }
 
 std::vector<float>

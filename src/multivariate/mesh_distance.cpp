@@ -186,7 +186,7 @@ distanceToMesh(const GridShape& shape,
                Report& report)
 {
   if (mesh.vertices.empty())
-    throw InvalidArgument("A mesh without vertices has no distance field.");
+    throw InvalidArgument("distance_to_empty_mesh", {});
   const std::vector<std::uint8_t> marks = rasterize(shape, mesh, report);
   std::vector<GridCell> sites;
   for (std::uint64_t cell = 0; cell < marks.size(); ++cell)

@@ -294,18 +294,15 @@ void
 checkValues(const std::vector<float>& values, std::size_t columns)
 {
   if (columns == 0 || values.size() % columns != 0)
-    throw InvalidArgument("A spanning tree needs rows of one number or more: " +
-                          std::to_string(values.size()) + " values are no rows of " +
-                          std::to_string(columns) + ".");
+    throw InvalidArgument("spanning_tree_without_rows",
+                          {{"values", values.size()}, {"columns", columns}});
   if (values.size() / columns > std::numeric_limits<std::int32_t>::max())
-    throw InvalidArgument("A spanning tree of " +
-                          std::to_string(values.size() / columns) +
-                          " points is too large: 2^31 - 1 are allowed.");
+    throw InvalidArgument("spanning_tree_too_large",
+                          {{"points", values.size() / columns}});
   if (!std::all_of(values.begin(), values.end(), [](float value) {
         return std::isfinite(value);
       }))
-    throw InvalidArgument("A spanning tree needs finite values: leave out the points "
-                          "that have others.");
+    throw InvalidArgument("spanning_tree_not_finite", {});
 }
 
 std::vector<double>

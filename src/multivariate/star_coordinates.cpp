@@ -102,9 +102,8 @@ void
 checkParameters(const StarCoordinateParameters& parameters)
 {
   if (!(parameters.regularization > 0.0 && parameters.regularization <= 1.0))
-    throw InvalidArgument("The regularization of Fisher ratios lies in (0, 1], and is "
-                          "not " +
-                          std::to_string(parameters.regularization) + ".");
+    throw InvalidArgument("regularization_not_allowed",
+                          {{"regularization", parameters.regularization}});
 }
 
 /** Ascends from several starts, in attributes; the functionals of the best end. */
@@ -210,8 +209,7 @@ smallestFisherRatio(const AttributeTable& table,
 {
   checkParameters(parameters);
   if (projection.names != table.names)
-    throw InvalidArgument("The projection was made for other attributes than those of "
-                          "the table.");
+    throw InvalidArgument("projection_of_other_attributes", {});
   std::vector<Moments> clusters = momentsPerCluster(table, labels, threads);
   clusters.erase(clusters.begin());
   if (clusters.size() < 2)
@@ -235,8 +233,8 @@ detail::projectPoints(const CloudView& cloud,
                       Report& report)
 {
   if (!labels.empty() && labels.size() != cloud.count)
-    throw InvalidArgument("There are " + std::to_string(labels.size()) +
-                          " labels for " + std::to_string(cloud.count) + " points.");
+    throw InvalidArgument("labels_of_other_points",
+                          {{"labels", labels.size()}, {"points", cloud.count}});
   const std::vector<std::uint32_t> use(indices.begin(), indices.end());
   const AttributeTable table = readAttributes(
       cloud, use, parameters.attributes, parameters.is_standardized, threads, report);

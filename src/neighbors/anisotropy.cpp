@@ -85,7 +85,7 @@ equalizingScale(const CloudView& cloud)
         std::isfinite(xyz[0]) && std::isfinite(xyz[1]) && std::isfinite(xyz[2]))
       use.push_back(static_cast<std::uint32_t>(i));
   if (use.empty())
-    throw InvalidArgument("No sample has finite coordinates to find a scale from.");
+    throw InvalidArgument("no_sample_for_scale", {});
   const Eigen::Array3f scale = equalizeSpread(findSpread(cloud, use));
   Report report;
   const auto samples = SampleSet::build(cloud.xyz(0),

@@ -113,7 +113,7 @@ ExactNeighbors::ExactNeighbors(const SampleSet& samples,
                                Report& report)
 {
   if (samples.getTrees().size() != 1)
-    throw InvalidArgument("Exact natural neighbours need all samples in one piece.");
+    throw InvalidArgument("exact_neighbors_in_pieces", {});
   StepTimer step(report, "voronoi_cells", samples.size());
   std::vector<FaceRows> blocks((samples.size() + face_block - 1) / face_block);
   parallelBlocks(

@@ -16,17 +16,16 @@ checkBox(const std::array<double, 3>& low, const std::array<double, 3>& high)
   for (int axis = 0; axis < 3; ++axis)
     if (!std::isfinite(low[axis]) || !std::isfinite(high[axis]) ||
         high[axis] < low[axis])
-      throw InvalidArgument("The box of a grid has finite corners, the lower one "
-                            "first.");
+      throw InvalidArgument("grid_box_not_ordered", {});
 }
 
 void
 checkCells(double cells)
 {
   if (!(cells >= 1.0 && cells <= GridShape::largest_side))
-    throw InvalidArgument("A grid has 1 to " + std::to_string(GridShape::largest_side) +
-                          " cells along an axis, not " +
-                          std::to_string(std::llround(cells)) + ".");
+    throw InvalidArgument(
+        "grid_cells_out_of_range",
+        {{"most", GridShape::largest_side}, {"cells", std::llround(cells)}});
 }
 
 } // namespace

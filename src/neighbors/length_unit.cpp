@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <sstream>
 
 namespace pcl_uvol {
 
@@ -71,13 +70,9 @@ MagnitudeCounts::findUnit(const Position& scale) const
         std::ldexp(1.0f, -std::clamp(exponent, -most_exponent, most_exponent));
   for (int axis = 0; axis < 3; ++axis) {
     unit.scale[axis] = scale[axis] * unit.factor;
-    if (!std::isnormal(unit.scale[axis])) {
-      std::ostringstream text;
-      text << "The scale " << scale[0] << ", " << scale[1] << ", " << scale[2]
-           << " takes coordinates out of the range of float: choose factors that are "
-              "nearer to each other, or scale the coordinates.";
-      throw InvalidArgument(text.str());
-    }
+    if (!std::isnormal(unit.scale[axis]))
+      throw InvalidArgument("scale_beyond_float",
+                            {{"x", scale[0]}, {"y", scale[1]}, {"z", scale[2]}});
   }
   return unit;
 }

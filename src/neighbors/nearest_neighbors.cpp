@@ -25,8 +25,7 @@ void
 checkCount(std::size_t k)
 {
   if (k == 0)
-    throw InvalidArgument(
-        "The number of nearest neighbours is 0: it must be at least 1.");
+    throw InvalidArgument("no_nearest_neighbors", {});
 }
 
 /** A search of the user's may have settings in the unit of the input, as an octree its
@@ -134,11 +133,9 @@ computeNearestNeighbors(const SampleSet& samples,
         sorted.add(sq_dists[j], indices[j]);
       const auto& neighbors = sorted.finish(row);
       if (neighbors.size() < row)
-        throw InvalidArgument("Sample " + std::to_string(i) + " has only " +
-                              std::to_string(neighbors.size()) + " of " +
-                              std::to_string(row) +
-                              " neighbours at a finite distance: scale the "
-                              "coordinates.");
+        throw InvalidArgument(
+            "neighbors_not_finite",
+            {{"sample", i}, {"found", neighbors.size()}, {"needed", row}});
       for (std::size_t j = 0; j < row; ++j)
         graph.indices[i * row + j] = neighbors[j].second;
     }
@@ -156,7 +153,7 @@ computeNearestNeighbors(const SampleSet& samples,
 {
   checkCount(k);
   if (!search)
-    throw InvalidArgument("The search method for nearest neighbours is null.");
+    throw InvalidArgument("neighbor_search_null", {});
   const std::size_t count = samples.size();
   const std::size_t row = std::min(k, count - 1);
   StepTimer step(report, "nearest_neighbors", count);

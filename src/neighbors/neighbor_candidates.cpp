@@ -9,7 +9,6 @@
 #include <cmath>
 #include <functional>
 #include <numeric>
-#include <sstream>
 
 namespace pcl_uvol {
 
@@ -37,14 +36,11 @@ checkCandidates(const NeighborGraph& members, const NeighborGraph& adjacent)
     candidates += around * static_cast<double>(members[site].size());
   }
   const double per_sample = candidates / static_cast<double>(members.indices.size());
-  if (per_sample <= most_candidates)
-    return;
-  std::ostringstream text;
-  text << "The samples crowd in few cells of the Voronoi grid: it gives " << candidates
-       << " candidates for neighbours, " << per_sample
-       << " per sample, of which at most " << most_candidates
-       << " are allowed. A grid of more cells gives fewer; the kd-tree needs none.";
-  throw InvalidArgument(text.str());
+  if (per_sample > most_candidates)
+    throw InvalidArgument("too_many_candidates",
+                          {{"candidates", candidates},
+                           {"per_sample", per_sample},
+                           {"most", most_candidates}});
 }
 
 GridShape

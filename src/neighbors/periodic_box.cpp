@@ -95,9 +95,7 @@ checkPeriodic(const std::array<double, 3>& sides)
 {
   for (const double side : sides)
     if (!(side >= 0.0) || !std::isfinite(side))
-      throw InvalidArgument("A box that repeats needs sides from 0, where 0 stands for "
-                            "an axis along which it does not, and " +
-                            std::to_string(side) + " is none.");
+      throw InvalidArgument("periodic_side_not_allowed", {{"side", side}});
 }
 
 void

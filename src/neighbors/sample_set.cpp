@@ -165,9 +165,7 @@ SampleSet::buildInUnit(const float* xyz,
     report.count("strays", gathered.strays.count);
   gathered.strays.warn(report);
   if (records.empty())
-    throw InvalidArgument("The cloud has no usable sample: all " +
-                          std::to_string(use.size()) +
-                          " given have a non-finite coordinate.");
+    throw InvalidArgument("no_usable_sample", {{"samples", use.size()}});
 
   // Not make_shared: the constructor is private.
   const std::shared_ptr<SampleSet> set(new SampleSet);

@@ -41,7 +41,7 @@ pointsWithValue(const std::vector<Value>& values,
     if (!std::isnan(values[static_cast<std::size_t>(index)]))
       use.push_back(static_cast<std::uint32_t>(index));
   if (use.empty())
-    throw InvalidArgument("No sample has a finite value of " + field.getName() + ".");
+    throw InvalidArgument("no_finite_value", {{"field", field.getName()}});
   return use;
 }
 

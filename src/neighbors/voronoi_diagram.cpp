@@ -19,11 +19,10 @@ checkParameters(const VoronoiParameters& parameters)
   if (!is_allowed(parameters.cells_x) ||
       (!are_cubes &&
        (!is_allowed(parameters.cells_y) || !is_allowed(parameters.cells_z))))
-    throw InvalidArgument("A Voronoi grid has 1 to " +
-                          std::to_string(GridShape::largest_side) +
-                          " cells along each axis.");
+    throw InvalidArgument("voronoi_cells_out_of_range",
+                          {{"most", GridShape::largest_side}});
   if (!are_cubes && parameters.margin > 0)
-    throw InvalidArgument("A margin is for cubic cells: give one number of cells.");
+    throw InvalidArgument("margin_of_oblong_cells", {});
 }
 
 GridShape
@@ -42,7 +41,7 @@ makeShape(const CloudView& cloud,
     }
   }
   if (low[0] > high[0])
-    throw InvalidArgument("The input has no point with finite coordinates.");
+    throw InvalidArgument("input_without_point", {});
   return parameters.cells_y == 0
              ? GridShape::cubes(low, high, parameters.cells_x, parameters.margin)
              : GridShape::boxes(

@@ -34,9 +34,8 @@ checkShape(const GridShape& shape)
     if (shape.cells[axis] < 1 || shape.cells[axis] > GridShape::largest_side ||
         !(shape.spacing[axis] > 0.0) || !std::isfinite(shape.spacing[axis]) ||
         !std::isfinite(shape.origin[axis]))
-      throw InvalidArgument("A grid has 1 to " +
-                            std::to_string(GridShape::largest_side) +
-                            " cells along every axis, of finite sides above 0.");
+      throw InvalidArgument("voronoi_grid_not_allowed",
+                            {{"most", GridShape::largest_side}});
   const std::string grid = "A grid of " + std::to_string(shape.cells[0]) + " x " +
                            std::to_string(shape.cells[1]) + " x " +
                            std::to_string(shape.cells[2]) + " cells";
@@ -44,7 +43,7 @@ checkShape(const GridShape& shape)
   constexpr double bytes_per_cell = 12.0;
   checkMemory(grid, bytes_per_cell * static_cast<double>(shape.size()));
   if (shape.size() >= no_site)
-    throw InvalidArgument(grid + " has more than the 4 billion that can be numbered.");
+    throw InvalidArgument("grid_beyond_numbers", {{"grid", grid}});
 }
 
 bool
@@ -167,8 +166,7 @@ VoronoiGrid::VoronoiGrid(const GridShape& shape,
         });
     report.count("non_finite", use.size() - placed.size());
     if (placed.empty())
-      throw InvalidArgument("A discrete Voronoi diagram needs a point with finite "
-                            "coordinates.");
+      throw InvalidArgument("voronoi_grid_without_point", {});
     parallelSort(placed.begin(), placed.end(), threads, std::less<Placed>());
     for (std::size_t i = 0; i < placed.size(); ++i) {
       const std::uint32_t cell = placed[i].cell;

@@ -30,27 +30,20 @@ checkDistributed(const IsosurfacePipelineParameters& parameters)
 {
   checkParameters(parameters);
   if (parameters.automatic_scale)
-    throw InvalidArgument("An automatic scale is not offered for samples of several "
-                          "processes, as none sees them all: give three factors.");
+    throw InvalidArgument("distributed_scale", {});
   if (detail::StretchAxes(parameters.rotation).areTurned())
-    throw InvalidArgument(
-        "A rotated scale is not offered for samples of several processes.");
+    throw InvalidArgument("distributed_rotation", {});
   if (parameters.mesh)
-    throw InvalidArgument("A mesh is not offered for samples of several processes: its "
-                          "cells would have to be joined across their borders.");
+    throw InvalidArgument("distributed_mesh", {});
   if (parameters.smooth)
-    throw InvalidArgument(
-        "A level set is not offered for samples of several processes.");
+    throw InvalidArgument("distributed_level_set", {});
   if (parameters.fill_gaps)
-    throw InvalidArgument(
-        "Gaps are not filled in samples of several processes: no one sees them all.");
+    throw InvalidArgument("distributed_gaps", {});
   if (parameters.validation.folds > 0)
-    throw InvalidArgument(
-        "A hold-out test is not offered for samples of several processes.");
+    throw InvalidArgument("distributed_hold_out", {});
   if (parameters.normals != NormalMethod::Auto &&
       parameters.normals != NormalMethod::Edge)
-    throw InvalidArgument("Isopoints of several processes have the normals of their "
-                          "fits, else of their edges; others are not offered.");
+    throw InvalidArgument("distributed_normals", {});
 }
 
 /** The isopoints of this process with the fields of the samples at their edges. */
@@ -138,7 +131,7 @@ IsosurfaceResult
 DistributedIsosurfacePipeline::run()
 {
   if (!part_)
-    throw InvalidArgument("DistributedIsosurfacePipeline has no input: call setInput.");
+    throw InvalidArgument("distributed_without_input", {});
   checkDistributed(parameters_);
   startReport();
   IsosurfacePipelineParameters parameters = parameters_;

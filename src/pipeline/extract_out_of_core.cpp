@@ -76,8 +76,7 @@ readPoints(PointSource& points,
   }
   report.merge(counts);
   if (read.samples.size() == 0)
-    throw InvalidArgument("No sample has a position and a finite value of " +
-                          settings.field + ".");
+    throw InvalidArgument("no_sample_with_value", {{"field", settings.field}});
   read.unit = read.samples.normalize(report);
   return read;
 }
@@ -127,10 +126,7 @@ runPipelineOutOfCore(PointSource& points,
       (parameters.periodic > 0.0).any() ||
       detail::StretchAxes(parameters.rotation).areTurned() ||
       parameters.isosurface.neighbors != NeighborSource::KdTree)
-    throw InvalidArgument(
-        "Level sets, an automatic or rotated scale, hold-out tests, meshes, filled "
-        "gaps, boxes that repeat and neighbours from Voronoi diagrams need all samples "
-        "in memory.");
+    throw InvalidArgument("not_out_of_core", {});
   Dataset samples = points.getHeader();
   IsosurfacePipelineParameters resolved = parameters;
   if (resolved.isosurface.field.empty())

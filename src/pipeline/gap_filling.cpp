@@ -140,9 +140,9 @@ checkField(const Dataset& samples, const std::string& field)
 {
   const pcl::PCLPointField* const stored = findField(samples.cloud.fields, field);
   if (!stored || stored->count > 1)
-    throw InvalidArgument("Gaps are filled in fields of single numbers, and " +
-                          quoteText(field) + " is none; the fields are " +
-                          describeFields(samples.cloud.fields) + ".");
+    throw InvalidArgument("no_field_for_gaps",
+                          {{"field", shortenText(field)},
+                           {"fields", describeFields(samples.cloud.fields)}});
 }
 
 } // namespace

@@ -117,7 +117,7 @@ divide(const pcl::Indices& use, const Folds& folds, std::size_t fold)
     (folds[static_cast<std::size_t>(index)] == fold ? division.left_out : division.rest)
         .push_back(index);
   if (division.rest.empty())
-    throw InvalidArgument("All samples are in one fold: divide them otherwise.");
+    throw InvalidArgument("single_fold", {});
   return division;
 }
 

@@ -39,7 +39,7 @@ resolve(const PipelineInput& input,
         std::optional<ScaleChoice>& choice)
 {
   if (!input.samples)
-    throw InvalidArgument("IsosurfacePipeline has no input: call setInput.");
+    throw InvalidArgument("pipeline_without_input", {});
   IsosurfaceParameters parameters = input.parameters.isosurface;
   if (parameters.field.empty())
     parameters.field = ScalarField::defaultName(listNumberFields(*input.samples));

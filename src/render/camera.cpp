@@ -26,8 +26,7 @@ void
 checkFieldOfView(double degrees)
 {
   if (!(degrees > 0.0 && degrees < 180.0))
-    throw InvalidArgument("A field of view is between 0 and 180 degrees, not " +
-                          std::to_string(degrees) + ".");
+    throw InvalidArgument("bad_field_of_view", {{"degrees", degrees}});
 }
 
 struct Side {
@@ -62,12 +61,11 @@ Camera::rotation() const
   checkFieldOfView(vertical_fov);
   const Eigen::Vector3d sight = at - eye;
   if (!eye.allFinite() || !at.allFinite() || !up.allFinite() || sight.norm() == 0.0)
-    throw InvalidArgument("A camera looks from one finite place to another one.");
+    throw InvalidArgument("camera_without_sight", {});
   const Eigen::Vector3d forward = sight.normalized();
   const Eigen::Vector3d right = forward.cross(up.normalized());
   if (!(right.norm() > least_sine))
-    throw InvalidArgument(
-        "The upward direction of a camera is not zero nor along its line of sight.");
+    throw InvalidArgument("camera_up_along_sight", {});
   Eigen::Matrix3d rows;
   rows.row(0) = right.normalized();
   rows.row(1) = forward.cross(right.normalized());
@@ -112,8 +110,7 @@ Camera::fit(const BoundingSphere& sphere,
                  vertical_fov,
                  aspect,
                  fill);
-  throw InvalidArgument("There is no view " + quoteText(view) +
-                        ": choose front, back, left, right, top, bottom or iso.");
+  throw InvalidArgument("unknown_view", {{"view", shortenText(view)}});
 }
 
 const std::vector<std::string>&

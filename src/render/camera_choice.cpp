@@ -34,7 +34,7 @@ Camera
 turnedUpwards(Camera camera, const Eigen::Vector3d& up)
 {
   if (!(up.norm() > 0.0))
-    throw InvalidArgument("The upward direction of a camera is 0,0,0, which is none.");
+    throw InvalidArgument("camera_up_of_zero", {});
   const auto turn = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), up);
   camera.eye = camera.at + turn * (camera.eye - camera.at);
   camera.up = turn * camera.up;

@@ -199,9 +199,8 @@ ColorMap::ColorMap(const std::string& name)
   std::string list;
   for (const NamedMap& map : maps)
     list += (list.empty() ? "" : ", ") + std::string(map.name);
-  throw InvalidArgument("There is no colour map " + quoteText(name) +
-                        ": choose one of " + list +
-                        ", or one of them with _r behind it to run backwards.");
+  throw InvalidArgument("unknown_color_map",
+                        {{"map", shortenText(name)}, {"maps", list}});
 }
 
 Color
@@ -239,7 +238,7 @@ std::vector<Rgba>
 ColorMap::apply(const std::vector<float>& values, double low, double high) const
 {
   if (!std::isfinite(low) || !std::isfinite(high) || low > high)
-    throw InvalidArgument("A colour range is two finite numbers, the lower one first.");
+    throw InvalidArgument("bad_color_range", {});
   // A table in between: as fine as 8 bits per channel can tell.
   constexpr std::size_t entries = 1024;
   std::vector<Rgba> table(entries);

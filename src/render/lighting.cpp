@@ -12,9 +12,9 @@ void
 checkRange(const char* name, int value, int low, int high)
 {
   if (value < low || value > high)
-    throw InvalidArgument(std::string("The ") + name + " lies between " +
-                          std::to_string(low) + " and " + std::to_string(high) +
-                          ", and is not " + std::to_string(value) + ".");
+    throw InvalidArgument(
+        "render_setting_out_of_range",
+        {{"name", name}, {"low", low}, {"high", high}, {"number", value}});
 }
 
 void
@@ -22,9 +22,7 @@ checkColor(const char* name, const Color& color)
 {
   for (const float channel : {color.r, color.g, color.b})
     if (!(channel >= 0.0f) || !std::isfinite(channel))
-      throw InvalidArgument(std::string("The colour of ") + name +
-                            " has finite parts of 0 or more, not " +
-                            std::to_string(channel) + ".");
+      throw InvalidArgument("bad_render_color", {{"name", name}, {"number", channel}});
 }
 
 void
@@ -33,8 +31,7 @@ checkMaterial(const Material& material)
   for (const double factor :
        {material.ambient, material.diffuse, material.specular, material.shininess})
     if (!(factor >= 0.0) || !std::isfinite(factor))
-      throw InvalidArgument("The factors of a material are finite and 0 or more, not " +
-                            std::to_string(factor) + ".");
+      throw InvalidArgument("bad_material_factor", {{"factor", factor}});
   checkColor("the material", material.color);
 }
 
@@ -45,12 +42,9 @@ checkLights(const std::vector<Light>& lights)
     checkColor("a light", light.color);
     if (!light.position.allFinite() ||
         (light.kind == Light::Kind::Directional && light.position.isZero(0.0)))
-      throw InvalidArgument(
-          "A light comes from a finite place, or from a direction that "
-          "is not zero.");
+      throw InvalidArgument("light_from_nowhere", {});
     if (!(light.radius >= 0.0) || !std::isfinite(light.radius))
-      throw InvalidArgument("The radius of a light is finite and 0 or more, not " +
-                            std::to_string(light.radius) + ".");
+      throw InvalidArgument("bad_light_radius", {{"radius", light.radius}});
   }
 }
 

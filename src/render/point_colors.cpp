@@ -46,9 +46,8 @@ readColors(const CloudView& cloud)
 {
   const auto bytes = findColors(cloud);
   if (!bytes)
-    throw InvalidArgument("The cloud has no colours (rgb, rgba, or red, green and blue "
-                          "of a byte each); its fields are " +
-                          describeFields(cloud.fields) + ".");
+    throw InvalidArgument("cloud_without_colors",
+                          {{"fields", describeFields(cloud.fields)}});
   std::vector<Rgba> colors(cloud.count);
   for (std::size_t i = 0; i < cloud.count; ++i) {
     const std::uint8_t* const point = cloud.point(i);
@@ -228,19 +227,16 @@ findColorScale(const CloudView& cloud,
     finder.add(value);
   }
   if (!has_numbers)
-    throw InvalidArgument("All values of " + field + " are without a number.");
+    throw InvalidArgument("color_field_without_numbers", {{"field", field}});
   const std::optional<ColorScale> found = finder.find();
   if (!found)
-    throw InvalidArgument("No value of " + field +
-                          " is above 0, which its logarithm "
-                          "needs.");
+    throw InvalidArgument("color_field_without_logarithms", {{"field", field}});
   if (!mapping.range)
     return *found;
   const auto [low, high] = *mapping.range;
   if (!std::isfinite(low) || !std::isfinite(high) || low > high ||
       (mapping.is_logarithmic && !(low > 0.0)))
-    throw InvalidArgument("A colour range is two finite numbers, the lower one first, "
-                          "and both above 0 on a logarithmic scale.");
+    throw InvalidArgument("bad_mapped_color_range", {});
   return {low, high, mapping.is_logarithmic};
 }
 

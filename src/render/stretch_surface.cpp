@@ -80,8 +80,7 @@ stretchSurface(Dataset& surface, const Eigen::Vector3d& factors)
   pcl::PCLPointCloud2& cloud = surface.cloud;
   const CloudView view = viewOf(cloud);
   if (hasSplats(view))
-    throw InvalidArgument(
-        "Splats cannot be stretched: draw the points that they were made of.");
+    throw InvalidArgument("stretched_splats", {});
   if (const auto places = findFloats<3>(cloud, {"x", "y", "z"}))
     stretchPositions(cloud, view.count, *places, factors);
   if (const auto places = findFloats<3>(cloud, {"normal_x", "normal_y", "normal_z"}))

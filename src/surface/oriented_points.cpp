@@ -183,7 +183,7 @@ orientPoints(const CloudView& cloud,
   });
   report.count("non_finite", use.size() - finite.size());
   if (finite.empty())
-    throw InvalidArgument("The cloud has no point with finite coordinates.");
+    throw InvalidArgument("cloud_without_finite_point", {});
   Normals normals;
   if (const auto fields = normalFields(cloud))
     normals = readNormals(cloud, *fields, finite, threads);
@@ -195,8 +195,7 @@ orientPoints(const CloudView& cloud,
   }
   report.count("without_normal", finite.size() - normals.use.size());
   if (normals.use.empty())
-    throw InvalidArgument("No point of the cloud has a normal, and none can be "
-                          "estimated.");
+    throw InvalidArgument("cloud_without_normal", {});
   points.samples = SampleSet::build(cloud.xyz(0),
                                     cloud.stride(),
                                     normals.use,

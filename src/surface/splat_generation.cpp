@@ -36,12 +36,9 @@ void
 checkParameters(const SplatParameters& parameters)
 {
   if (!(parameters.delta > 0.0) || !std::isfinite(parameters.delta))
-    throw InvalidArgument("The error bound delta of splats is a number above 0, not " +
-                          std::to_string(parameters.delta) + ".");
+    throw InvalidArgument("splat_delta_not_positive", {{"delta", parameters.delta}});
   if (!(parameters.lambda >= 0.0 && parameters.lambda <= 1.0))
-    throw InvalidArgument("The coverage factor lambda of splats lies in [0, 1], and is "
-                          "not " +
-                          std::to_string(parameters.lambda) + ".");
+    throw InvalidArgument("splat_lambda_out_of_range", {{"lambda", parameters.lambda}});
 }
 
 /** Footprints; where a point has none, which is at corners, on lines and far off, half
@@ -221,7 +218,7 @@ detail::generateSplats(const CloudView& cloud,
 {
   checkParameters(parameters);
   if (use.empty())
-    throw InvalidArgument("The splat generation was given an empty cloud.");
+    throw InvalidArgument("empty_cloud", {{"stage", "The splat generation"}});
   OrientedPoints points = orientPoints(cloud, use, threads, report);
   points.bridged.clear(); // splats stand for all points
   const LengthUnit& unit = points.samples->getUnit();
@@ -230,13 +227,10 @@ detail::generateSplats(const CloudView& cloud,
   const double delta = parameters.delta_is_length ? parameters.delta * unit.factor
                                                   : parameters.delta * side;
   if (!(delta > 0.0))
-    throw InvalidArgument("All points of the cloud lie at one place: their extent "
-                          "gives no error bound, which must be given as a length.");
+    throw InvalidArgument("splats_without_extent", {});
   const double extent = std::max(side, delta);
   if (!(extent >= smallest_extent && extent <= largest_extent))
-    throw InvalidArgument("The error bound delta of splats is no length beside "
-                          "coordinates as large as these: it, or the extent of the "
-                          "cloud, must be 1e-12 to 1e15 times as large.");
+    throw InvalidArgument("splat_delta_beside_coordinates", {});
   const auto accepted = growOn(points,
                                delta,
                                static_cast<float>(largest_alone * unit.factor),

@@ -169,12 +169,9 @@ void
 checkParameters(const SurfaceNormalParameters& parameters)
 {
   if (parameters.k < 2)
-    throw InvalidArgument("Normals from " + std::to_string(parameters.k) +
-                          " neighbours are not possible: k must be at least 2.");
+    throw InvalidArgument("few_neighbors_for_normals", {{"neighbors", parameters.k}});
   if (!parameters.scale.allFinite() || !(parameters.scale > 0.0f).all())
-    throw InvalidArgument(
-        "The scale of a normal estimation must be finite and positive "
-        "along every axis.");
+    throw InvalidArgument("normals_scale_not_positive", {});
 }
 
 /** The sample that stands for each input point. */
@@ -240,7 +237,7 @@ estimateSurfaceNormals(const CloudView& input,
 {
   checkParameters(parameters);
   if (indices.empty())
-    throw InvalidArgument("The normal estimation was given an empty cloud.");
+    throw InvalidArgument("empty_cloud", {{"stage", "The normal estimation"}});
   const Eigen::Array3f& scale = parameters.scale;
   const StretchAxes axes(parameters.rotation);
   const CloudView cloud = axes.turn(input);

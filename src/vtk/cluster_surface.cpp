@@ -10,11 +10,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <limits>
 #include <numeric>
 #include <optional>
-#include <sstream>
 #include <string>
 
 namespace pcl_uvol {
@@ -74,17 +72,15 @@ chooseDistance(const std::vector<Position>& positions,
                Report& report)
 {
   if (!(parameters.distance >= 0.0) || !std::isfinite(parameters.distance))
-    throw InvalidArgument("The distance of a surface from a cluster is a number above "
-                          "0, or 0 for that of the spanning tree.");
+    throw InvalidArgument("cluster_distance_not_allowed", {});
   const double longest = longestSpanningEdge(positions, threads, report);
   if (parameters.distance > 0.0) {
     if (parameters.distance < 0.5 * longest)
-      report.warn("short_distance", {{"edge", std::to_string(longest)}});
+      report.warn("short_distance", {{"edge", longest}});
     return parameters.distance;
   }
   if (longest == 0.0)
-    throw InvalidArgument("All points of the cluster lie at one place, which gives no "
-                          "distance: it must be given.");
+    throw InvalidArgument("cluster_at_one_place", {});
   // One cell more: the field is known between the centres of cells only.
   const double cell = shapeAround(positions, longest, parameters.cells).spacing[0];
   // The grid grows with the distance. None is large enough for 3 cells.
@@ -168,16 +164,6 @@ findOutlier(const Members& members)
   return Outlier{point, largest / *half};
 }
 
-std::string
-describe(const Outlier& outlier)
-{
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(0) << "the point of index " << outlier.point
-       << " lies " << outlier.ratio
-       << " times as far from the middle as half of them do";
-  return text.str();
-}
-
 /** A hull has one corner per cell at most: it tells little of points that share them.
  * Distances from cells are about those from points, unless a few far out make the cells
  * large. */
@@ -214,10 +200,10 @@ shrinkToHull(const Members& members,
       makeClusterHull(surface.mesh.triangles, findRegions(surface.mesh.vertices, grid));
   if (hull.triangles.empty()) {
     const auto outlier = findOutlier(members);
-    throw InvalidArgument(
-        "The cluster has no hull: fewer than three of its points meet "
-        "on a surface around them" +
-        (outlier ? ", as " + describe(*outlier) + ": leave it out." : "."));
+    throw InvalidArgument("no_hull",
+                          {{"has_outlier", outlier.has_value()},
+                           {"point", outlier ? outlier->point : 0},
+                           {"ratio", outlier ? std::nearbyint(outlier->ratio) : 0.0}});
   }
   surface.mesh.vertices.clear();
   for (const std::uint32_t site : hull.regions) {
@@ -243,8 +229,7 @@ checkExtent(const GridShape& shape)
     sq_diagonal += extent * extent;
   }
   if (std::max(farthest, std::sqrt(sq_diagonal)) > std::numeric_limits<float>::max())
-    throw InvalidArgument("The surface around the cluster would be larger than float "
-                          "can hold (3.4e38): scale the coordinates down.");
+    throw InvalidArgument("cluster_too_large", {});
 }
 
 void
@@ -252,8 +237,7 @@ checkScale(const Eigen::Array3f& scale)
 {
   for (const float factor : scale)
     if (!(factor > 0.0f) || !std::isfinite(factor))
-      throw InvalidArgument("The scale " + std::to_string(factor) +
-                            " is not allowed: it must be finite and positive.");
+      throw InvalidArgument("scale_not_positive", {{"scale", factor}});
 }
 
 } // namespace
@@ -272,20 +256,17 @@ detail::encloseCluster(const CloudView& cloud,
   const std::vector<Position>& positions = finite.positions;
   report.count("non_finite", members.size() - positions.size());
   if (positions.empty())
-    throw InvalidArgument("The cluster has no point with finite coordinates.");
+    throw InvalidArgument("cluster_without_positions", {});
   report.count("members", positions.size());
   if (kind != ClusterSurfaceKind::Distance && positions.size() < 3)
-    throw InvalidArgument("A hull needs three points or more, and the cluster has " +
-                          std::to_string(positions.size()) + ".");
+    throw InvalidArgument("few_points_for_hull", {{"points", positions.size()}});
   ClusterSurface surface;
   surface.distance = chooseDistance(positions, parameters, threads, report);
   const GridShape shape = shapeAround(positions, surface.distance, parameters.cells);
   checkExtent(shape);
   if (surface.distance < smallest_distance * shape.spacing[0])
-    throw InvalidArgument("The distance " + std::to_string(surface.distance) +
-                          " is too small for cells of " +
-                          std::to_string(shape.spacing[0]) +
-                          ": choose a finer grid or a larger distance.");
+    throw InvalidArgument("small_cluster_distance",
+                          {{"distance", surface.distance}, {"cell", shape.spacing[0]}});
   std::vector<std::uint32_t> all(positions.size());
   std::iota(all.begin(), all.end(), 0u);
   FeatureTransform way;

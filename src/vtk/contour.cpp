@@ -19,9 +19,8 @@ Mesh
 contourGrid(const GridShape& shape, const std::vector<float>& values, double isovalue)
 {
   if (values.size() != shape.size())
-    throw InvalidArgument("A grid of " + std::to_string(shape.size()) +
-                          " cells has a value for each of them, not " +
-                          std::to_string(values.size()) + " values.");
+    throw InvalidArgument("unfitting_grid_values",
+                          {{"cells", shape.size()}, {"values", values.size()}});
   vtkNew<vtkFloatArray> scalars;
   // VTK only reads them.
   scalars->SetArray(

@@ -144,7 +144,7 @@ ImageSpaceProp::draw(vtkRenderer& renderer)
 {
   auto* const window = vtkOpenGLRenderWindow::SafeDownCast(renderer.GetRenderWindow());
   if (window == nullptr)
-    throw InvalidArgument("Image-space rendering needs an OpenGL window of VTK.");
+    throw InvalidArgument("no_opengl_window", {});
   WindowView shown = makeWindowView(renderer, *GetMatrix(), renderer_.getBounds());
   const std::shared_ptr<GlContext> context = wrapContext(*window);
   const ScopedGlState drawing(*window, *context);

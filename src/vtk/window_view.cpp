@@ -40,9 +40,7 @@ uniformScale(const Eigen::Matrix3d& matrix)
   const Eigen::Matrix3d rotation = matrix / scale;
   if (!(scale > 0.0) || !(rotation * rotation.transpose())
                              .isApprox(Eigen::Matrix3d::Identity(), matrix_tolerance))
-    throw InvalidArgument("Image-space rendering takes a camera and a cloud that are "
-                          "turned, moved and scaled by the same factor along all axes "
-                          "only: remove other scales, shears and mirrors.");
+    throw InvalidArgument("uneven_camera", {});
   return scale;
 }
 
@@ -52,8 +50,7 @@ isParallel(const Eigen::Matrix4d& projection)
   if (projection.row(3) == Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0))
     return true;
   if (projection.row(3) != Eigen::RowVector4d(0.0, 0.0, -1.0, 0.0))
-    throw InvalidArgument("Image-space rendering takes perspective and parallel "
-                          "projections only.");
+    throw InvalidArgument("unknown_projection", {});
   return false;
 }
 
@@ -94,7 +91,7 @@ makeWindowView(vtkRenderer& renderer, vtkMatrix4x4& model, const BoundingSphere&
 {
   auto* const camera = vtkOpenGLCamera::SafeDownCast(renderer.GetActiveCamera());
   if (camera == nullptr)
-    throw InvalidArgument("Image-space rendering needs VTK's OpenGL camera.");
+    throw InvalidArgument("no_opengl_camera", {});
   // VTK's own, so that depths and places agree with those of other props.
   vtkMatrix4x4 *view_matrix, *projection_matrix, *product;
   vtkMatrix3x3* normal_matrix;
@@ -114,8 +111,7 @@ makeWindowView(vtkRenderer& renderer, vtkMatrix4x4& model, const BoundingSphere&
   const double focal_x = 0.5 * width * projection(0, 0);
   const double focal_y = 0.5 * height * projection(1, 1);
   if (std::abs(focal_x - focal_y) > matrix_tolerance * focal_y)
-    throw InvalidArgument("Image-space rendering needs square pixels: remove the "
-                          "renderer's pixel aspect.");
+    throw InvalidArgument("stretched_pixels", {});
   const double fov = is_parallel ? Camera::parallel_fov
                                  : 2.0 * degrees * std::atan(1.0 / projection(1, 1));
   View view(makeCamera(cloud_to_eye, scale, fov), bounds, width, height);

@@ -465,7 +465,7 @@ def test_an_extractor_tells_of_contradictions_each_time(ball):
     twice = uvol.Samples(np.r_[points, points], {"r": np.r_[fields["r"], fields["r"] + 0.01]})
     extractor = uvol.Extractor(twice)
     for iso in (0.3, 0.4):
-        with pytest.warns(uvol.ResultWarning, match="of the 4000 places of samples several lie") as warned:
+        with pytest.warns(uvol.ResultWarning, match="of the places of samples several lie") as warned:
             extractor.extract(iso=iso)
         assert "conflicting_samples" in [warning.message.code for warning in warned]
 

@@ -161,8 +161,7 @@ protected:
       this->indices_ = detail::makeIndices(viewOf(*this->input_).count);
     }
     if (!this->input_ || !this->initCompute())
-      throw InvalidArgument(std::string(stage) +
-                            " has no input cloud: call setInputCloud.");
+      throw InvalidArgument("stage_without_cloud", {{"stage", stage}});
     const CloudView cloud = viewOf(*this->input_);
     detail::checkIndices(*this->indices_, cloud.count, stage);
     work(cloud, *this->indices_);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a run tells beside its result, as data: a code, and the numbers and names that
-// its text holds. The texts are one table, src/common/message_texts.cpp.
+// its text holds. The texts are tables: src/common/warning_texts.cpp, error_texts.cpp.
 #pragma once
 
 #include <pcl_uvol/common/export.h>

@@ -11,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace pcl_uvol {
 
@@ -18,10 +19,13 @@ namespace pcl_uvol {
  * what() end with two more lines: the expression, and a caret under the place. */
 class PCL_UVOL_EXPORTS ExpressionError : public InvalidArgument {
 public:
-  /** \param place byte of the expression, at most its length
-   * \param sentence what is wrong and what helps
-   * \param expression as it was given */
-  ExpressionError(const std::string& sentence,
+  /** \param code row of the table of messages, whose text ends with the line
+   * {marked_lines}
+   * \param values all others that the text holds
+   * \param expression as it was given
+   * \param place byte of the expression, at most its length */
+  ExpressionError(std::string code,
+                  std::vector<MessageValue> values,
                   const std::string& expression,
                   std::size_t place);
 
@@ -40,7 +44,7 @@ public:
   }
 
 private:
-  std::string sentence_, marked_;
+  std::string marked_, sentence_;
 };
 
 /** \brief How derived fields are computed. */

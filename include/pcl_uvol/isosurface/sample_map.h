@@ -128,7 +128,7 @@ public:
   append(const Cloud& cloud, double stamp)
   {
     if (!(std::abs(stamp) <= std::numeric_limits<double>::max()))
-      throw InvalidArgument("Samples need a finite stamp.");
+      throw InvalidArgument("stamp_not_finite", {});
     const std::lock_guard<std::mutex> lock(mutex_);
     newest_ = samples_.empty() ? stamp : std::max(newest_, stamp);
     for (const PointT& point : cloud)

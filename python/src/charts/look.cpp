@@ -16,7 +16,7 @@ Color
 toColor(const Eigen::Array3d& numbers)
 {
   if (!(numbers >= 0.0).all() || !(numbers <= 1.0).all())
-    throw InvalidArgument("A colour is red, green and blue, from 0 to 1 each.");
+    throw InvalidArgument("bad_picture_color", {});
   return {static_cast<float>(numbers[0]),
           static_cast<float>(numbers[1]),
           static_cast<float>(numbers[2])};
@@ -28,31 +28,27 @@ void
 checkColors(const PictureParameters& parameters)
 {
   if (parameters.range && !((*parameters.range)[0] < (*parameters.range)[1]))
-    throw InvalidArgument("The range of colours is two numbers, the lower one first.");
+    throw InvalidArgument("bad_picture_range", {});
   if (parameters.range && parameters.log && !((*parameters.range)[0] > 0.0))
-    throw InvalidArgument("The range of logarithmic colours is two numbers above 0.");
+    throw InvalidArgument("bad_logarithmic_range", {});
   const ColorMap map =
       parameters.colormap == "auto" ? ColorMap() : ColorMap(parameters.colormap);
   if (parameters.log && map.isCategorical())
-    throw InvalidArgument("Logarithmic colours need a map of shades, and " +
-                          parameters.colormap + " is one of categories.");
+    throw InvalidArgument("logarithms_of_categories", {{"map", parameters.colormap}});
 }
 
 void
 checkFigure(const PictureParameters& parameters)
 {
   if (!parameters.unit.empty() && !parameters.ticks && !parameters.scale_bar)
-    throw InvalidArgument("A unit is that of ticks or of scale_bar: ask for one.");
+    throw InvalidArgument("picture_unit_alone", {});
   if (!parameters.views.empty() && parameters.eye)
-    throw InvalidArgument(
-        "views and eye both say where the camera is: give one of them.");
+    throw InvalidArgument("picture_views_and_eye", {});
   if (parameters.scale_bar && parameters.exaggerate &&
       (*parameters.exaggerate != (*parameters.exaggerate)[0]).any())
-    throw InvalidArgument("scale_bar needs one scale for all directions, and "
-                          "exaggerate has several; ticks show them.");
+    throw InvalidArgument("scale_bar_of_several_scales", {});
   if (!makeFigure(parameters).fits(parameters.width, parameters.height))
-    throw InvalidArgument(
-        "The picture is too small for views and title: a larger size helps.");
+    throw InvalidArgument("picture_too_small_for_views", {});
 }
 
 } // namespace
@@ -63,17 +59,16 @@ readPictureParameters(const std::string& json)
   const auto parameters = readJson<PictureParameters>(json);
   for (const int size : {parameters.width, parameters.height})
     if (size < 1 || size > View::largest_size / std::max(parameters.supersample, 1))
-      throw InvalidArgument(
-          "A picture is from 1 x 1 to " + std::to_string(View::largest_size) + " x " +
-          std::to_string(View::largest_size) + " pixels before averaging, not " +
-          std::to_string(parameters.width) + " x " + std::to_string(parameters.height) +
-          ".");
+      throw InvalidArgument("bad_picture_size",
+                            {{"most", View::largest_size},
+                             {"width", parameters.width},
+                             {"height", parameters.height}});
   if (parameters.at && !parameters.eye)
-    throw InvalidArgument("at is where a camera looks that has a place: give eye.");
+    throw InvalidArgument("picture_at_without_eye", {});
   if (parameters.frames < 1)
-    throw InvalidArgument("A full turn has at least one frame.");
+    throw InvalidArgument("picture_without_frames", {});
   if (parameters.exaggerate && !(*parameters.exaggerate > 0.0).all())
-    throw InvalidArgument("exaggerate is three factors above 0.");
+    throw InvalidArgument("bad_exaggerate", {});
   checkColors(parameters);
   checkFigure(parameters);
   return parameters;

@@ -123,9 +123,8 @@ private:
       return picture;
     }
     catch (const std::bad_alloc&) {
-      throw NotEnoughMemory("There is not enough memory for a picture of " +
-                            std::to_string(look_.width) + " x " +
-                            std::to_string(look_.height) + " pixels.");
+      throw NotEnoughMemory("memory_for_picture",
+                            {{"width", look_.width}, {"height", look_.height}});
     }
   }
 
@@ -204,7 +203,7 @@ private:
                                      threads_,
                                      preparation_);
     if (splats.cloud.empty())
-      throw InvalidArgument("None of the splats is usable.");
+      throw InvalidArgument("picture_without_splats", {});
     fitted_splats_ = std::make_unique<FittedSplats>(splats, points_->cloud, threads_);
     SplatObject object;
     if (!field_.empty()) {

@@ -54,7 +54,7 @@ toDatatype(const std::string& name)
   for (const NumberType& type : number_types)
     if (name == type.name)
       return type.datatype;
-  throw InvalidArgument("Fields have no type " + name + ".");
+  throw InvalidArgument("unknown_numpy_type", {{"type", name}});
 }
 
 const char*
@@ -63,8 +63,7 @@ toTypeName(std::uint8_t datatype)
   for (const NumberType& type : number_types)
     if (datatype == type.datatype)
       return type.name;
-  throw InvalidArgument("Numpy has no type for a field's datatype " +
-                        std::to_string(int{datatype}) + ".");
+  throw InvalidArgument("field_type_not_in_numpy", {{"datatype", datatype}});
 }
 
 /** Records to be filled in through their bytes; settle() makes points of them. */
@@ -157,7 +156,7 @@ withDensity(const DatasetPtr& dataset,
             const py::object& progress)
 {
   if (!std::isfinite(length) || length < 0.0)
-    throw InvalidArgument("A smoothing length is a number from 0.");
+    throw InvalidArgument("bad_smoothing_length", {});
   auto result = std::make_shared<Dataset>(*dataset);
   const SphParameters fields = findSphFields(dataset->cloud.fields);
   Report report;

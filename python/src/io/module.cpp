@@ -90,7 +90,7 @@ describeArray(const std::string& name, const py::array& numbers)
   if (kind == 'f' && (size == 4 || size == 8))
     array.datatype = size == 4 ? Type::FLOAT32 : Type::FLOAT64;
   else if (kind != 'u' || size != 1)
-    throw InvalidArgument("Files of lattices hold float32, float64 and uint8.");
+    throw InvalidArgument("bad_lattice_type", {});
   return array;
 }
 

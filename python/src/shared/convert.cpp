@@ -92,7 +92,7 @@ toTriangles(const py::array_t<std::uint32_t, py::array::c_style | py::array::for
                 indices)
 {
   if (indices.ndim() != 2 || indices.shape(1) != 3)
-    throw InvalidArgument("Triangles are rows of three indices.");
+    throw InvalidArgument("bad_triangle_array", {});
   std::vector<Triangle> triangles(static_cast<std::size_t>(indices.shape(0)));
   for (std::size_t i = 0; i < triangles.size(); ++i)
     std::copy_n(indices.data() + 3 * i, 3, triangles[i].begin());

@@ -26,8 +26,8 @@ void
 checkThreshold(const char* name, double value)
 {
   if (!(value > 0.0) || !std::isfinite(value))
-    throw InvalidArgument(std::string("The ") + name + " is a number above 0, not " +
-                          std::to_string(value) + ".");
+    throw InvalidArgument("render_setting_not_positive",
+                          {{"name", name}, {"number", value}});
 }
 
 void
@@ -45,9 +45,8 @@ checkParameters(const ImageSpaceSettings& settings)
   checkThreshold("threshold of feature lines", settings.feature_threshold);
   checkThreshold("threshold of anti-aliasing", settings.anti_aliasing_threshold);
   if (!(settings.ambient_occlusion >= 0.0 && settings.ambient_occlusion <= 1.0))
-    throw InvalidArgument("The strength of ambient occlusion is a number from 0 to 1, "
-                          "not " +
-                          std::to_string(settings.ambient_occlusion) + ".");
+    throw InvalidArgument("bad_ambient_occlusion",
+                          {{"strength", settings.ambient_occlusion}});
   checkMaterial(settings.material);
   checkColor("lines", settings.line_color);
   checkBackground(settings.background);
@@ -132,9 +131,9 @@ ImageSpaceRendererBase::prepare(const CloudView& cloud,
   surface_report_ = Report();
   if (prepared_) {
     if (prepared_->count_ != cloud.count || indices->size() != cloud.count)
-      throw InvalidArgument("The surface was prepared of " +
-                            std::to_string(prepared_->count_) + " points, and " +
-                            std::to_string(indices->size()) + " are to be drawn.");
+      throw InvalidArgument(
+          "surface_prepared_of_others",
+          {{"prepared", prepared_->count_}, {"drawn", indices->size()}});
     surface_ = prepared_->surface_;
     surface_report_.merge(prepared_->report_);
   }
@@ -168,8 +167,8 @@ ImageSpaceRendererBase::colorSurface(const CloudView& cloud)
     surfaces.push_back(layer.get());
   std::vector<Rgba> colors = point_colors_;
   if (!colors.empty() && colors.size() != cloud.count)
-    throw InvalidArgument("There are " + std::to_string(colors.size()) +
-                          " colours for " + std::to_string(cloud.count) + " points.");
+    throw InvalidArgument("colors_unlike_points",
+                          {{"colors", colors.size()}, {"points", cloud.count}});
   if (colors.empty() && !color_field_.empty()) {
     PointColors found = colorPoints(
         cloud, color_field_, {color_map_, color_range_, logarithmic_colors_});
@@ -192,8 +191,7 @@ ImageSpaceRendererBase::prepareLayers(const CloudView& cloud,
 {
   for (const double opacity : opacities_)
     if (!(opacity >= 0.0 && opacity <= 1.0))
-      throw InvalidArgument("Opacities are numbers from 0 to 1, not " +
-                            std::to_string(opacity) + ".");
+      throw InvalidArgument("bad_opacity", {{"opacity", opacity}});
   if (layers_.empty()) {
     Report counted_before; // with the whole surface
     counted_before.progress = report_.progress;
@@ -205,10 +203,9 @@ ImageSpaceRendererBase::prepareLayers(const CloudView& cloud,
     colored_ = false;
   }
   if (opacities_.size() != 1 && opacities_.size() != layers_.size())
-    throw InvalidArgument("Opacities are one for all isovalues, or one for each, the "
-                          "lowest isovalue first: there are " +
-                          std::to_string(layers_.size()) + " isovalues, and " +
-                          std::to_string(opacities_.size()) + " opacities.");
+    throw InvalidArgument(
+        "opacities_unlike_isovalues",
+        {{"isovalues", layers_.size()}, {"opacities", opacities_.size()}});
 }
 
 void
@@ -289,8 +286,7 @@ ImageSpaceRendererBase::renderFrom(const CloudView& cloud,
   checkParameters(settings_);
   checkPictureSize(View::largest_size / std::max(supersampling_, 1));
   if (supersampling_ > 1 && (planes_.depth || planes_.normal || planes_.id))
-    throw InvalidArgument("Planes of an image cannot be averaged: render depth, normal "
-                          "or id without supersampling.");
+    throw InvalidArgument("planes_with_supersampling", {});
   const auto& bounds = prepare(cloud, indices).getBounds();
   const View view(
       cameraFor(bounds), bounds, width_ * supersampling_, height_ * supersampling_);
@@ -298,8 +294,7 @@ ImageSpaceRendererBase::renderFrom(const CloudView& cloud,
     backend_ = std::make_shared<CpuBackend>();
   if (!opacities_.empty()) {
     if (planes_.depth || planes_.normal || planes_.id)
-      throw InvalidArgument("Transparent surfaces have no planes: render depth, normal "
-                            "or id without opacities.");
+      throw InvalidArgument("planes_with_opacities", {});
     const Camera camera = cameraFor(bounds);
     const auto find_view = [&](const BoundingSphere& part) {
       return View(camera, part, width_ * supersampling_, height_ * supersampling_);

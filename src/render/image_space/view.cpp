@@ -28,10 +28,9 @@ View::View(const Camera& camera,
     , unit(chooseLengthUnit(bounds))
 {
   if (width < 1 || height < 1 || width > largest_size || height > largest_size)
-    throw InvalidArgument("An image of " + std::to_string(width) + " x " +
-                          std::to_string(height) +
-                          " pixels cannot be drawn: both numbers lie between 1 and " +
-                          std::to_string(largest_size) + ".");
+    throw InvalidArgument(
+        "bad_image_size",
+        {{"width", width}, {"height", height}, {"most", largest_size}});
   const Eigen::Matrix3d turn = camera.rotation();
   const Eigen::Vector3d shift = unit * (turn * (bounds.center - camera.eye));
   for (int row = 0; row < 3; ++row) {

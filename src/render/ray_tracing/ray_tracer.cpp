@@ -28,39 +28,36 @@ checkMaterial(const RayMaterial& material)
   // Sums of decimal fractions may be a bit more than 1.
   constexpr double rounding = 1e-9;
   if (!(mirrored >= 0.0 && through >= 0.0 && mirrored + through <= 1.0 + rounding))
-    throw InvalidArgument("Reflectivity and transparency are 0 or more and together at "
-                          "most 1, not " +
-                          std::to_string(mirrored) + " and " + std::to_string(through) +
-                          ".");
+    throw InvalidArgument("material_beyond_one",
+                          {{"reflectivity", mirrored}, {"transparency", through}});
   if (!(material.refractive_index > 0.0) || !std::isfinite(material.refractive_index))
-    throw InvalidArgument("A refractive index is above 0, and is not " +
-                          std::to_string(material.refractive_index) + ".");
+    throw InvalidArgument("bad_refractive_index",
+                          {{"index", material.refractive_index}});
 }
 
 void
 checkSplats(const SplatObject& object)
 {
   if (!object.splats || object.splats->empty())
-    throw InvalidArgument("An object of splats has none.");
+    throw InvalidArgument("object_without_splats", {});
   if (!object.colors.empty() && object.colors.size() != object.splats->size())
-    throw InvalidArgument("An object of " + std::to_string(object.splats->size()) +
-                          " splats has " + std::to_string(object.colors.size()) +
-                          " colours.");
+    throw InvalidArgument(
+        "colors_unlike_splats",
+        {{"splats", object.splats->size()}, {"colors", object.colors.size()}});
   if (!object.rims.empty() && object.rims.size() != object.splats->size())
-    throw InvalidArgument("An object of " + std::to_string(object.splats->size()) +
-                          " splats has " + std::to_string(object.rims.size()) +
-                          " rims.");
+    throw InvalidArgument(
+        "rims_unlike_splats",
+        {{"splats", object.splats->size()}, {"rims", object.rims.size()}});
   for (const PointSplat& splat : *object.splats)
     if (!isDrawable(splat))
-      throw InvalidArgument("An object has a splat that is not finite, without normal "
-                            "or radius, or farther away than 1e18.");
+      throw InvalidArgument("object_with_bad_splat", {});
 }
 
 void
 checkScene(const Scene& scene)
 {
   if (scene.splats.empty() && scene.spheres.empty() && scene.planes.empty())
-    throw InvalidArgument("The scene has no objects.");
+    throw InvalidArgument("scene_without_objects", {});
   for (const SplatObject& object : scene.splats) {
     checkMaterial(object.material);
     checkSplats(object);
@@ -69,16 +66,14 @@ checkScene(const Scene& scene)
     checkMaterial(sphere.material);
     if (!sphere.center.allFinite() || !(sphere.radius > 0.0) ||
         !std::isfinite(sphere.radius))
-      throw InvalidArgument("A sphere has a finite centre and a radius above 0.");
+      throw InvalidArgument("bad_sphere", {});
   }
   for (const PlaneObject& plane : scene.planes) {
     checkMaterial(plane.material);
     checkColor("a plane's squares", plane.other_color);
     if (!plane.point.allFinite() || !plane.normal.allFinite() ||
         plane.normal.isZero(0.0) || !(plane.square >= 0.0))
-      throw InvalidArgument(
-          "A plane has a finite point, a normal that is not zero, and "
-          "squares of 0 or more.");
+      throw InvalidArgument("bad_plane", {});
   }
   checkLights(scene.lights);
   checkBackground(scene.background);
@@ -92,7 +87,7 @@ checkParameters(const RayTracingSettings& settings)
   checkRange("number of shadow rays", settings.light_samples, 1, most_samples);
   checkRange("number of occlusion rays", settings.occlusion_samples, 0, most_samples);
   if (!(settings.occlusion_distance >= 0.0))
-    throw InvalidArgument("The distance of occlusion is 0 or more.");
+    throw InvalidArgument("bad_occlusion_distance", {});
 }
 
 /** Primary rays of an image. */
@@ -190,7 +185,7 @@ const World&
 RayTracer::build()
 {
   if (!scene_ && !world_)
-    throw InvalidArgument("RayTracer has no scene: call setScene.");
+    throw InvalidArgument("ray_tracer_without_scene", {});
   if (!world_) {
     startReport();
     world_ = std::make_unique<World>(std::move(*scene_), threads_, report_);

@@ -41,8 +41,8 @@ coverCloud(const Dataset& dataset,
   const CloudView view = viewOf(dataset.cloud);
   Splats splats = findSplats(view, look.parameters, look.has_parameters, threads, own);
   if (splats.cloud.empty())
-    throw InvalidArgument("none of the splats in " + quoteText(look.name) +
-                          " is usable");
+    throw InvalidArgument("cloud_without_usable_splats",
+                          {{"cloud", shortenText(look.name)}});
   for (Message& warning : own.warnings)
     warning.about = look.name;
   report.merge(own);
@@ -95,8 +95,8 @@ placeCloud(const CloudLook& look,
   if (placement.fit_size > 0.0) {
     const double side = cloud.box.sizes().maxCoeff();
     if (!(side > 0.0))
-      throw InvalidArgument("all points of " + quoteText(look.name) +
-                            " lie at one place, which cannot be fitted to a size");
+      throw InvalidArgument("cloud_without_extent",
+                            {{"cloud", shortenText(look.name)}});
     scale = placement.fit_size / side;
     from = -cloud.box.center();
   }
@@ -114,9 +114,7 @@ placeCloud(const CloudLook& look,
     splat.radius = static_cast<float>(scale * splat.radius);
     splat.error = static_cast<float>(scale * splat.error);
     if (!isDrawable(splat))
-      throw InvalidArgument(
-          "a splat of " + quoteText(look.name) +
-          " becomes larger or smaller than float can hold, or goes beyond 1e18");
+      throw InvalidArgument("splat_beyond_float", {{"cloud", shortenText(look.name)}});
   }
 }
 
