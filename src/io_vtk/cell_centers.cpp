@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io_vtk/cell_centers.h"
 
+#include "filters/solid_cells.h"
 #include "io/files.h"
 
 #include <vtkCell.h>
@@ -164,14 +165,6 @@ private:
 };
 
 } // namespace
-
-bool
-isLeftOut(unsigned char ghost)
-{
-  return (ghost &
-          (vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::REFINEDCELL |
-           vtkDataSetAttributes::HIDDENCELL)) != 0;
-}
 
 void
 checkCells(const std::string& path, vtkDataSet& data)

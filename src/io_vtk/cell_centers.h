@@ -19,12 +19,6 @@ namespace io {
 void
 checkCells(const std::string& path, vtkDataSet& data);
 
-/** \brief True for a cell that is hidden, a copy of another part's, or refined by a
- * finer level.
- * \param ghost its number in vtkGhostType */
-bool
-isLeftOut(unsigned char ghost);
-
 /** \brief The centres of cells with the data of cells, without those that are hidden,
  * are copies of another part's, or are refined by a finer level of an adaptive mesh. */
 vtkSmartPointer<vtkPolyData>

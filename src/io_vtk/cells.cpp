@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "filters/cell_locator.h"
 #include "io_vtk/entries.h"
-#include "io_vtk/solid_cells.h"
+#include "io_vtk/packed_cells.h"
 #include "io_vtk/vtk_data_reader.h"
 
 #include <vtkDataSet.h>

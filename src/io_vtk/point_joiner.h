@@ -3,7 +3,7 @@
 // cells.
 #pragma once
 
-#include "io_vtk/solid_cells.h"
+#include "io_vtk/packed_cells.h"
 #include "io_vtk/vtk_readers.h"
 
 #include <vtkPolyData.h>

@@ -2,8 +2,8 @@
 // Points of files that VTK's own readers take, and of files that list others.
 #pragma once
 
+#include "io_vtk/packed_cells.h"
 #include "io_vtk/point_joiner.h"
-#include "io_vtk/solid_cells.h"
 #include "io_vtk/vtk_readers.h"
 
 #include <string>
