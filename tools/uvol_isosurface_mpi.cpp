@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The main job by many processes: each reads a part of the samples, and writes a part
 // of the isosurface.
-#include "common/sample_checks.h"
 #include "distributed/merge_reports.h"
 #include "distributed/periodic_ranks.h"
 #include "io/rank_files.h"
@@ -117,7 +116,6 @@ load(Arguments& arguments,
   std::string& field = arguments.parameters.isosurface.field;
   if (!field.empty())
     field = pcl_uvol::addDerivedField(part, field, options, report);
-  pcl_uvol::refuseNames(part, field);
   return part;
 }
 

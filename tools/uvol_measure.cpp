@@ -4,7 +4,6 @@
 #include "charts/line_plot.h"
 #include "charts/picture_file.h"
 #include "common/printable.h"
-#include "common/sample_checks.h"
 #include "common/scalar_field.h"
 #include "pipeline/memory_need.h"
 #include "shared/isosurface_options.h"
@@ -218,7 +217,6 @@ loadSamples(const Options& options, Arguments& arguments, Report& report)
   arguments.resolveSpacing(*samples);
   uvol_tools::addField(
       *samples, arguments.parameters.isosurface.field, options, report);
-  pcl_uvol::refuseNames(*samples, arguments.parameters.isosurface.field);
   return samples;
 }
 

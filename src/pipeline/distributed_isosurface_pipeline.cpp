@@ -142,6 +142,7 @@ DistributedIsosurfacePipeline::run()
     isosurface.interpolation = Interpolation::Fit;
   if (isosurface.field.empty())
     isosurface.field = ScalarField::defaultName(listNumberFields(*part_));
+  refuseNames(*part_, isosurface.field);
   const PartInBox part(part_, parameters, communicator_, threads_, report_);
   const CloudView view = viewOf(part.getPoints().cloud);
   const ScalarField field(view.fields, isosurface.field);

@@ -131,6 +131,7 @@ runPipelineOutOfCore(PointSource& points,
   IsosurfacePipelineParameters resolved = parameters;
   if (resolved.isosurface.field.empty())
     resolved.isosurface.field = ScalarField::defaultName(listNumberFields(samples));
+  refuseNames(samples, resolved.isosurface.field);
   Report report;
   report.progress = progress;
   auto surface = extractOutOfCore(points, withErrors(resolved), out_of_core, report);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/large_array.h"
 #include "common/records.h"
+#include "common/sample_checks.h"
 #include "common/scalar_field.h"
 #include "pipeline/extract_surface.h"
 #include "pipeline/finish_isosurface.h"
@@ -43,6 +44,7 @@ resolve(const PipelineInput& input,
   IsosurfaceParameters parameters = input.parameters.isosurface;
   if (parameters.field.empty())
     parameters.field = ScalarField::defaultName(listNumberFields(*input.samples));
+  refuseNames(*input.samples, parameters.field);
   if (!input.parameters.automatic_scale)
     return parameters;
   Report own;

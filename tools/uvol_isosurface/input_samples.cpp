@@ -2,7 +2,6 @@
 #include "uvol_isosurface/input_samples.h"
 
 #include "common/records.h"
-#include "common/sample_checks.h"
 #include "common/scalar_field.h"
 #include "expressions/memory_need.h"
 #include "interpolation/outer_layer.h"
@@ -82,7 +81,6 @@ loadSamples(const Options& options,
   if (arguments.density.isAskedFor() && arguments.parameters.isosurface.field.empty())
     arguments.parameters.isosurface.field = "sph_density";
   addField(*samples, arguments.parameters.isosurface.field, options, report, sides);
-  pcl_uvol::refuseNames(*samples, arguments.parameters.isosurface.field);
   if (std::isfinite(arguments.outside_value))
     addOuterLayer(options, arguments, *samples, report);
   arguments.picture.addColorOfSamples(options, *samples, report, sides);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "uvol_isosurface/pipeline_run.h"
 
-#include "common/sample_checks.h"
 #include "expressions/derived_source.h"
 #include "io/point_stream.h"
 #include "pipeline/extract_out_of_core.h"
@@ -131,7 +130,6 @@ runFromDisk(const Options& options, const PipelineOptions& arguments, Report& re
   pcl_uvol::IsosurfacePipelineParameters parameters = arguments.parameters;
   pcl_uvol::DerivedSource points(file, parameters.isosurface.field, options.threads());
   parameters.isosurface.field = points.getField();
-  pcl_uvol::refuseNames(points.getHeader(), parameters.isosurface.field);
   checkOutput(arguments, points.getHeader());
   report.warnings = points.getHeader().notes;
   keepMap(arguments.input, points.getHeader(), load, report);

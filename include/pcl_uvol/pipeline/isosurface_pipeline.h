@@ -62,7 +62,8 @@ public:
   }
 
   /** \brief Run from the samples to the surface; getReport() is that of the result.
-   * \throws InvalidArgument without an input, as checkParameters, and as the stages do
+   * \throws InvalidArgument without an input, for a field of names, as checkParameters,
+   * and as the stages do
    * \throws Diverged as LevelSetEvolution */
   IsosurfaceResult
   run();

@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Every front end warns of the same things on the same samples: the tool, the tool on
+// ranks, Python and the filter of VTK. The viewer runs the pipeline as the filter does.
+#include "support/mpi_job.h"
+#include "vtk_setup.h"
+#include <pcl_uvol/common/dataset.h>
+#include <pcl_uvol/common/message.h>
+#include <pcl_uvol/filters/vtkUvolIsosurface.h>
+#include <pcl_uvol/io/dataset.h>
+
+#include <vtkXMLPolyDataReader.h>
+
+#include <algorithm>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+namespace test_same_warnings {
+
+using namespace uvol_test;
+using nlohmann::json;
+using pcl_uvol::Message;
+using pcl_uvol::ParameterNames;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/** Samples of the field `f`. */
+struct Samples {
+  std::vector<double> xyz;
+  std::vector<float> f;
+
+  void
+  add(double x, double y, double z, double value)
+  {
+    xyz.insert(xyz.end(), {x, y, z});
+    f.push_back(static_cast<float>(value));
+  }
+};
+
+/** A ball's distance at random places of a cube, and what goes wrong with it. */
+Samples
+makeBall(const std::function<void(Random&, Samples&, std::size_t i)>& spoil,
+         double offset = 0.0)
+{
+  Random random(11);
+  Samples samples;
+  for (std::size_t i = 0; i < 4000; ++i) {
+    double place[3];
+    for (double& coordinate : place)
+      coordinate = 2.0 * random.uniform() - 1.0;
+    samples.add(offset + place[0],
+                offset + place[1],
+                offset + place[2],
+                std::hypot(place[0], place[1], place[2]));
+    spoil(random, samples, i);
+  }
+  return samples;
+}
+
+Samples
+makeBall(double offset = 0.0)
+{
+  return makeBall([](Random&, Samples&, std::size_t) {}, offset);
+}
+
+/** Vertical lines of samples far apart. */
+Samples
+makeLines()
+{
+  Random random(5);
+  Samples samples;
+  for (int line = 0; line < 40; ++line) {
+    const double x = random.uniform(), y = random.uniform();
+    for (int i = 0; i < 60; ++i)
+      samples.add(x, y, i / 200.0, x + 0.05 * std::sin(i / 3.0));
+  }
+  return samples;
+}
+
+struct Subject {
+  const char* name;
+  Samples samples;
+  double isovalue;
+  const char* code; ///< of a warning that is there; empty: there is none
+};
+
+const std::vector<Subject>&
+listSubjects()
+{
+  static const std::vector<Subject> subjects{
+      {"Ball", makeBall(), 0.6, ""},
+      {"NoSurface", makeBall(), 7.0, "no_isopoints"},
+      {"Border", makeBall(), 1.6, "isopoints_at_border"},
+      {"Lines", makeLines(), 0.5, "contradicted_isopoints"},
+      {"Noise",
+       makeBall([](Random& random, Samples& samples, std::size_t) {
+         samples.f.back() += static_cast<float>(random.uniform() - 0.5);
+       }),
+       0.6,
+       "thin_parts"},
+      {"Spikes",
+       makeBall([](Random&, Samples& samples, std::size_t i) {
+         if (i % 50 == 0)
+           samples.f.back() = 5.0f;
+       }),
+       1.0,
+       "spikes"},
+      {"Conflicts",
+       makeBall([](Random&, Samples& samples, std::size_t i) {
+         if (i % 4 == 0)
+           samples.add(samples.xyz[samples.xyz.size() - 3],
+                       samples.xyz[samples.xyz.size() - 2],
+                       samples.xyz[samples.xyz.size() - 1],
+                       static_cast<double>(samples.f.back()) + 0.01);
+       }),
+       0.6,
+       "conflicting_samples"},
+      {"Strays",
+       makeBall([](Random&, Samples& samples, std::size_t i) {
+         if (i == 7)
+           samples.xyz.back() = 1e30;
+       }),
+       0.6,
+       "strays"},
+      {"Missing",
+       makeBall([](Random&, Samples& samples, std::size_t i) {
+         if (i % 3 == 0)
+           samples.f.back() = static_cast<float>(nan);
+       }),
+       0.6,
+       ""},
+      {"Sheet",
+       [] {
+         Random random(3);
+         Samples samples;
+         for (int i = 0; i < 3000; ++i) {
+           const double x = random.uniform(), y = random.uniform();
+           samples.add(x, y, 1e-4 * random.uniform(), x);
+         }
+         return samples;
+       }(),
+       0.5,
+       ""},
+      {"FarAway", makeBall(1e7), 0.6, ""}};
+  return subjects;
+}
+
+std::string
+isoOf(const Subject& subject)
+{
+  return json(subject.isovalue).dump();
+}
+
+/** A message and its texts: as the options of a tool and as properties of VTK name
+ * parameters. */
+std::vector<Message>
+toMessages(const json& warnings)
+{
+  std::vector<Message> messages;
+  for (const json& warning : warnings) {
+    Message message(warning.at("code").get<std::string>(), {});
+    for (const auto& [name, value] : warning.at("values").items())
+      if (value.is_number())
+        message.values.emplace_back(name, value.get<double>());
+      else
+        message.values.emplace_back(name, value.get<std::string>());
+    messages.push_back(message);
+  }
+  return messages;
+}
+
+std::vector<std::string>
+sortedTexts(const std::vector<Message>& messages)
+{
+  std::vector<std::string> texts;
+  for (const Message& message : messages)
+    texts.push_back(message.text(ParameterNames::Properties));
+  std::sort(texts.begin(), texts.end());
+  return texts;
+}
+
+std::vector<std::string>
+sortedCodes(const std::vector<Message>& messages)
+{
+  std::vector<std::string> codes;
+  for (const Message& message : messages)
+    codes.push_back(message.code);
+  std::sort(codes.begin(), codes.end());
+  return codes;
+}
+
+class SameWarnings : public testing::TestWithParam<std::size_t> {
+protected:
+  void
+  SetUp() override
+  {
+    pcl_uvol::Dataset dataset;
+    setCoordinates(dataset, subject().samples.xyz);
+    setField(dataset, "f", subject().samples.f);
+    pcl_uvol::saveDataset(folder_ / "in.vtp", dataset);
+  }
+
+  static const Subject&
+  subject()
+  {
+    return listSubjects()[GetParam()];
+  }
+
+  /** What a command that prints a report tells. */
+  std::vector<Message>
+  runTool(const std::string& tool) const
+  {
+    const auto result =
+        runCommand("cd " + (folder_ / "") + " && " + tool +
+                   " in.vtp out.vtp -field f -json -iso " + isoOf(subject()));
+    EXPECT_EQ(0, result.exit_code) << result.err;
+    return toMessages(json::parse(result.out).at("warnings"));
+  }
+
+  /** The words of the filter's warnings, without the place that VTK puts in front. */
+  std::vector<std::string>
+  runFilter() const
+  {
+    vtkNew<vtkXMLPolyDataReader> reader;
+    reader->SetFileName((folder_ / "in.vtp").c_str());
+    vtkNew<vtkUvolIsosurface> filter;
+    const Listener listener(*filter);
+    filter->SetInputConnection(reader->GetOutputPort());
+    filter->SetInputArrayToProcess(
+        0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "f");
+    filter->SetValue(0, subject().isovalue);
+    filter->Update();
+    return listener.warnings;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_P(SameWarnings, ToolAndFilter)
+{
+  const auto told = runTool("uvol_isosurface");
+  const auto codes = sortedCodes(told);
+  if (const std::string code = subject().code; !code.empty())
+    EXPECT_EQ(1, std::count(codes.begin(), codes.end(), code)) << json(codes);
+  else
+    EXPECT_EQ(std::vector<std::string>(), codes);
+  auto heard = runFilter();
+  ASSERT_EQ(told.size(), heard.size()) << json(sortedTexts(told)) << json(heard);
+  const auto expected = sortedTexts(told);
+  for (const std::string& text : expected)
+    EXPECT_TRUE(std::any_of(heard.begin(),
+                            heard.end(),
+                            [&](const std::string& words) {
+                              return words.find(text) != std::string::npos;
+                            }))
+        << text << json(heard);
+}
+
+/** Ranks have other normals where there is no fit, and so other numbers. */
+TEST_P(SameWarnings, ToolAndRanks)
+{
+  if (!hasMpirun())
+    GTEST_SKIP() << "there is no mpirun";
+  EXPECT_EQ(sortedCodes(runTool("uvol_isosurface")),
+            sortedCodes(runTool(mpirun(2) + "uvol_isosurface_mpi")));
+}
+
+TEST_P(SameWarnings, ToolAndPython)
+{
+  const std::string python = PCL_UVOL_PYTHON;
+  if (python.empty())
+    GTEST_SKIP() << "Python's module is not built";
+  writeFile(folder_ / "run.py",
+            "import json, sys, warnings\n"
+            "import pcl_uvol as uvol\n"
+            "warnings.simplefilter('ignore')\n"
+            "surface = uvol.isosurface(uvol.read('in.vtp'), field='f', iso=" +
+                isoOf(subject()) +
+                ")\n"
+                "print(json.dumps(surface.report['warnings']))\n");
+  const auto result = runCommand("cd " + (folder_ / "") + " && " + python + " run.py");
+  ASSERT_EQ(0, result.exit_code) << result.err;
+  EXPECT_EQ(sortedTexts(runTool("uvol_isosurface")),
+            sortedTexts(toMessages(json::parse(result.out))));
+}
+
+INSTANTIATE_TEST_SUITE_P(Subjects,
+                         SameWarnings,
+                         testing::Range(std::size_t{0}, listSubjects().size()),
+                         [](const auto& index) {
+                           return std::string(listSubjects()[index.param].name);
+                         });
+
+} // namespace test_same_warnings
