@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Files of points and volumes."""
 
+import functools
 import os
 
 from . import _arrays, _map, _parameters, _report
@@ -66,7 +67,14 @@ def read(path, xyz=("", "", ""), particles="", cells=False, progress=None, map=N
         dataset = _io.read(os.fsencode(path), columns, _parameters.text(str(particles), "particles"), _parameters.flag(cells, "cells"),
                            _map.wanted(map), listener)
     _report.tell(dataset.notes)
-    return Samples._of(dataset)
+    samples = Samples._of(dataset)
+    samples._read_cells = functools.partial(_read_cells, os.fsencode(path), columns, str(particles), cells, _map.wanted(map))
+    return samples
+
+
+def _read_cells(*arguments):
+    from . import _io
+    return _io.read_cells(*arguments)  # which pickle does not take
 
 
 @_parameters.with_proposals

@@ -75,6 +75,9 @@ class Interpolator:
         "auto": the one that is nearest to samples left out.
     extrapolate : bool
         Give values outside of the data as well; else NaN there.
+    cell_mask : bool
+        Of samples that `read` took from a file with cells of three dimensions, let the
+        cells say where the data are: inside of one there is a value, outside of all NaN.
     gradients, errors : bool
         Compute these beside the values.
     scale, rotate
@@ -110,16 +113,17 @@ class Interpolator:
     """
 
     @_parameters.with_proposals
-    def __init__(self, points, fields=None, *, field="", model="fit", extrapolate=False, gradients=True, errors=True,
-                 scale=(1.0, 1.0, 1.0), rotate=None, kriging=None, sph=None, shepard=None, periodic=None, threads=0,
+    def __init__(self, points, fields=None, *, field="", model="fit", extrapolate=False, cell_mask=True, gradients=True,
+                 errors=True, scale=(1.0, 1.0, 1.0), rotate=None, kriging=None, sph=None, shepard=None, periodic=None, threads=0,
                  progress=None):
         samples = as_samples(points, fields)
         self._made_of = functools.partial(Interpolator, samples, field=field, model=model, extrapolate=extrapolate,
-                                          gradients=gradients, errors=errors, scale=scale, rotate=rotate, kriging=kriging, sph=sph,
+                                          cell_mask=cell_mask, gradients=gradients, errors=errors, scale=scale, rotate=rotate, kriging=kriging, sph=sph,
                                           shepard=shepard, periodic=periodic, threads=threads)
         self.samples = samples
         self._sides = samples._find_box(periodic)
         self._own = len(samples)
+        cells = samples._find_cells() if _parameters.flag(cell_mask, "cell_mask") and not any(self._sides) else None
         if any(self._sides):
             samples = Samples._of(samples._with_images(self._sides, (1.0, 1.0, 1.0), threads, progress).samples)
         self._is_single = isinstance(field, str)
@@ -147,7 +151,7 @@ class Interpolator:
         }
         with listening(progress) as listener:
             self._core = _core.Interpolator(samples._dataset, self._own, self._sides, _parameters.to_json(parameters),
-                                            self._threads, listener)
+                                            cells, self._threads, listener)
         self.fields = self._core.names
         _report.tell(self._core.report["warnings"])
 

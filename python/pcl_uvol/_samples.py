@@ -81,6 +81,7 @@ class Samples(Drawable, Points):
         self.parameters = _parameters.Parameters()
         self.snapshots = []
         self._derived = {}
+        self._read_cells = self._cells = None
 
     @classmethod
     @_parameters.with_proposals
@@ -341,8 +342,15 @@ class Samples(Drawable, Points):
 
     def __getstate__(self):
         state = super().__getstate__()
-        state["_derived"] = {}
+        state.update(_derived={}, _cells=None)
         return state
+
+    def _find_cells(self):
+        """The cells of the file that these samples are all of; None of other samples."""
+        if self._cells is None and self._read_cells is not None:
+            self._cells, warnings = self._read_cells(self._dataset)
+            _report.tell(warnings)
+        return self._cells
 
     def __repr__(self):
         fields = []

@@ -446,7 +446,7 @@ const MessageText warning_rows[] = {
      "{-viewpoint} chooses another place."},
     {"cells_not_used",
      "The cells of the input are not used: {reason} The samples decide where the "
-     "data are, as with {-no-cell-mask}."},
+     "data are."},
     {"grey_places",
      "The picture is grey at {hidden} of {places} places, where values of '{field}' "
      "are not above 0 and have no logarithm."},

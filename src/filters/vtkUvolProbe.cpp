@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/scalar_names.h"
+#include "filters/cell_locator.h"
 #include "filters/filter_run.h"
+#include "filters/solid_cells.h"
 #include "interpolation/answer_summary.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/filters/vtkUvolProbe.h>
@@ -17,7 +19,9 @@
 #include <vtkWeakPointer.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <memory>
 #include <optional>
 
 vtkStandardNewMacro(vtkUvolProbe);
@@ -87,6 +91,21 @@ addArrays(const InterpolatedFields& answers, vtkPointData& data)
   data.AddArray(support);
 }
 
+/** The cells of a source; null if it has none. */
+std::shared_ptr<const pcl_uvol::CellLocator>
+findCells(vtkDataSet& source, const std::array<double, 3>& origin)
+{
+  using pcl_uvol::CellLocator;
+  const pcl_uvol::SolidCells solid = pcl_uvol::takeSolidCells(source);
+  if (solid.mesh->GetNumberOfCells() == 0)
+    return nullptr;
+  return std::make_shared<const CellLocator>(
+      solid.mesh,
+      CellLocator::Samples::Corners,
+      static_cast<std::size_t>(source.GetNumberOfPoints()),
+      origin);
+}
+
 } // namespace
 
 /** The source as it was read last, and the model of its fields. */
@@ -94,6 +113,7 @@ struct vtkUvolProbe::Samples {
   vtkWeakPointer<vtkDataSet> source;
   vtkMTimeType source_time = 0;
   InterpolationParameters asked_for;
+  bool has_cell_mask = false;
   pcl_uvol::Dataset dataset;
   pcl::Indices visible;
   std::unique_ptr<pcl_uvol::detail::FieldInterpolator> interpolator;
@@ -119,6 +139,7 @@ vtkUvolProbe::PrintSelf(std::ostream& out, vtkIndent indent)
       << indent << "Extrapolate: " << (this->Extrapolate ? "On" : "Off") << '\n'
       << indent << "ComputeGradients: " << (this->ComputeGradients ? "On" : "Off")
       << '\n'
+      << indent << "CellMask: " << (this->CellMask ? "On" : "Off") << '\n'
       << indent << "Scale: " << this->Scale[0] << ' ' << this->Scale[1] << ' '
       << this->Scale[2] << '\n'
       << indent << "NumberOfThreads: " << this->NumberOfThreads << '\n';
@@ -183,6 +204,7 @@ vtkUvolProbe::ReadSource(vtkDataSet& source, Report& report)
   InterpolationParameters parameters = this->Parameters();
   if (this->Read && this->Read->source == &source &&
       this->Read->source_time == source.GetMTime() &&
+      this->Read->has_cell_mask == (this->CellMask != 0) &&
       this->Read->asked_for == parameters)
     return;
   this->Read.reset(); // before the next one takes memory
@@ -190,6 +212,7 @@ vtkUvolProbe::ReadSource(vtkDataSet& source, Report& report)
   read->source = &source;
   read->source_time = source.GetMTime();
   read->asked_for = parameters;
+  read->has_cell_mask = this->CellMask != 0;
   read->visible = pcl_uvol::visiblePoints(source);
   if (read->visible.empty())
     throw pcl_uvol::InvalidArgument("empty_source", {});
@@ -205,6 +228,8 @@ vtkUvolProbe::ReadSource(vtkDataSet& source, Report& report)
       parameters,
       static_cast<unsigned>(this->NumberOfThreads),
       read->made);
+  if (this->CellMask)
+    read->interpolator->setCells(findCells(source, read->dataset.origin));
   read->no_answers.emplace(view, read->visible, read->interpolator->getNames());
   read->made.progress = {};
   this->Read = std::move(read);

@@ -4,11 +4,14 @@
 #include <pcl_uvol/filters/vtkUvolProbe.h>
 
 #include <vtkCellArray.h>
+#include <vtkCellType.h>
 #include <vtkDataSetAttributes.h>
 #include <vtkImageData.h>
+#include <vtkUnstructuredGrid.h>
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLPolyDataWriter.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -215,9 +218,79 @@ TEST_F(VtkProbe, PrintsItself)
                                  "Model: Kriging",
                                  "Extrapolate: Off",
                                  "ComputeGradients: Off",
+                                 "CellMask: On",
                                  "Scale: 1 1 1",
                                  "NumberOfThreads: 0"})
     EXPECT_NE(text.str().find(word), std::string::npos) << text.str();
+}
+
+/** Cubes of side 1 in [0, 8]^3, but for those in [4, 8]^3. */
+vtkSmartPointer<vtkUnstructuredGrid>
+makeNotchedCube()
+{
+  constexpr int n = 8;
+  const auto numberOf = [](int x, int y, int z) {
+    return static_cast<vtkIdType>(x + (n + 1) * (y + (n + 1) * z));
+  };
+  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkDoubleArray> field;
+  field->SetName("f");
+  for (int z = 0; z <= n; ++z)
+    for (int y = 0; y <= n; ++y)
+      for (int x = 0; x <= n; ++x) {
+        points->InsertNextPoint(x, y, z);
+        field->InsertNextValue(x + 2.0 * y + 3.0 * z);
+      }
+  grid->SetPoints(points);
+  grid->GetPointData()->AddArray(field);
+  for (int z = 0; z < n; ++z)
+    for (int y = 0; y < n; ++y)
+      for (int x = 0; x < n; ++x) {
+        if (x >= n / 2 && y >= n / 2 && z >= n / 2)
+          continue;
+        const vtkIdType corners[] = {numberOf(x, y, z),
+                                     numberOf(x + 1, y, z),
+                                     numberOf(x + 1, y + 1, z),
+                                     numberOf(x, y + 1, z),
+                                     numberOf(x, y, z + 1),
+                                     numberOf(x + 1, y, z + 1),
+                                     numberOf(x + 1, y + 1, z + 1),
+                                     numberOf(x, y + 1, z + 1)};
+        grid->InsertNextCell(VTK_HEXAHEDRON, 8, corners);
+      }
+  return grid;
+}
+
+TEST(VtkProbeOfCells, CellsSayWhereTheDataAre)
+{
+  vtkNew<vtkPoints> places;
+  places->InsertNextPoint(1.5, 2.5, 3.5); // in a cell
+  places->InsertNextPoint(7.5, 7.5, 0.1); // in one at the border
+  places->InsertNextPoint(6.5, 6.5, 6.5); // among nodes, in no cell
+  vtkNew<vtkPolyData> queries;
+  queries->SetPoints(places);
+  const auto source = makeNotchedCube();
+  vtkNew<vtkUvolProbe> probe;
+  probe->SetInputData(queries);
+  probe->SetSourceData(source);
+  const auto values = [&] {
+    probe->Update();
+    vtkDataArray& told = *probe->GetOutput()->GetPointData()->GetArray("f");
+    return std::array<double, 3>{
+        told.GetTuple1(0), told.GetTuple1(1), told.GetTuple1(2)};
+  };
+  auto told = values();
+  EXPECT_NEAR(17.0, told[0], 1e-6);
+  EXPECT_NEAR(22.8, told[1], 1e-6);
+  EXPECT_TRUE(std::isnan(told[2])) << told[2];
+  probe->CellMaskOff();
+  told = values();
+  EXPECT_NEAR(17.0, told[0], 1e-6);
+  EXPECT_NEAR(39.0, told[2], 1e-6);
+  double corner[3]; // the source is as it was
+  source->GetPoint(source->GetNumberOfPoints() - 1, corner);
+  EXPECT_EQ(8.0, corner[0]);
 }
 
 } // namespace test_probe

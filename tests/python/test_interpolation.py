@@ -307,3 +307,43 @@ def test_queries_that_are_none_get_a_sentence(linear, call, message):
 def test_places_that_are_none_get_a_sentence(linear, call, message):
     with pytest.raises((ValueError, KeyError), match=message):
         call(uvol.Interpolator(linear, field="f"))
+
+
+@pytest.fixture
+def notched(tmp_path):
+    """A file of cubes in [0, 8]^3, but for those in [4, 8]^3, with the field f = x + 2 y + 3 z at all corners."""
+    corners = np.stack(np.meshgrid(*[np.arange(9)] * 3, indexing="ij"), -1)[..., ::-1].reshape(-1, 3)
+    low = np.stack(np.meshgrid(*[np.arange(8)] * 3, indexing="ij"), -1)[..., ::-1].reshape(-1, 3)
+    low = low[~(low >= 4).all(axis=1)]
+    offsets = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]])
+    cells = (low[:, None] + offsets) @ [1, 9, 81]
+    lines = ["# vtk DataFile Version 3.0", "notched", "ASCII", "DATASET UNSTRUCTURED_GRID", f"POINTS {len(corners)} float"]
+    lines += [" ".join(map(str, corner)) for corner in corners]
+    lines += [f"CELLS {len(cells)} {9 * len(cells)}"] + ["8 " + " ".join(map(str, cell)) for cell in cells]
+    lines += [f"CELL_TYPES {len(cells)}"] + ["12"] * len(cells)
+    lines += [f"POINT_DATA {len(corners)}", "SCALARS f float", "LOOKUP_TABLE default"]
+    lines += [str(value) for value in corners @ [1, 2, 3]]
+    path = tmp_path / "notched.vtk"
+    path.write_text("\n".join(lines) + "\n")
+    return path
+
+
+def test_cells_of_a_file_say_where_the_data_are(notched):
+    places = [[1.5, 2.5, 3.5], [7.5, 7.5, 0.1], [6.5, 6.5, 6.5]]
+    samples = uvol.read(notched)
+    interpolator = uvol.Interpolator(samples, field="f")
+    answers = interpolator.evaluate(places)
+    assert np.allclose(answers.values, [17, 22.8, np.nan], atol=1e-5, equal_nan=True)
+    assert answers.support[2] == 7
+    assert np.isnan(pickle.loads(pickle.dumps(interpolator)).evaluate(places).values[2])
+    assert np.allclose(uvol.Interpolator(samples, field="f", cell_mask=False).evaluate(places).values, [17, 22.8, 39], atol=1e-5)
+    assert np.allclose(uvol.Interpolator(samples.where("f < 100"), field="f").evaluate(places).values[2], 39, atol=1e-5)
+
+
+def test_cells_that_are_gone_are_told_of(notched):
+    samples = uvol.read(notched)
+    notched.unlink()
+    with pytest.warns(uvol.ResultWarning) as warned:
+        interpolator = uvol.Interpolator(samples, field="f")
+    assert "cells_not_used" in [warning.message.code for warning in warned]
+    assert np.isfinite(interpolator.evaluate([[6.5, 6.5, 6.5]]).values[0])

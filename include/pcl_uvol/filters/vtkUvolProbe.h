@@ -97,6 +97,14 @@ public:
   vtkBooleanMacro(Extrapolate, vtkTypeBool);
   /** @} */
 
+  /** \brief Where the source has cells of three dimensions, let them say where the data
+   * are: inside of one there is a value, outside of all there is none. Default on. @{
+   */
+  vtkSetMacro(CellMask, vtkTypeBool);
+  vtkGetMacro(CellMask, vtkTypeBool);
+  vtkBooleanMacro(CellMask, vtkTypeBool);
+  /** @} */
+
   /** \brief Default off. @{ */
   vtkSetMacro(ComputeGradients, vtkTypeBool);
   vtkGetMacro(ComputeGradients, vtkTypeBool);
@@ -161,6 +169,7 @@ private:
   std::string Field;
   int Model = MODEL_FIT;
   vtkTypeBool Extrapolate = 0;
+  vtkTypeBool CellMask = 1;
   vtkTypeBool ComputeGradients = 0;
   double Scale[3] = {1.0, 1.0, 1.0};
   int NumberOfThreads = 0;

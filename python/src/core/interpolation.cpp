@@ -7,6 +7,7 @@
 #include "interpolation/query_lattice.h"
 #include "interpolation/variogram.h"
 #include "neighbors/periodic_box.h"
+#include "shared/cell_mask.h"
 #include "shared/convert.h"
 #include "shared/interruptible.h"
 #include <pcl_uvol/common/cloud_view.h>
@@ -18,6 +19,7 @@
 #include <numeric>
 #include <pybind11/stl.h>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pcl_uvol::python {
@@ -47,11 +49,13 @@ class Interpolator {
 public:
   /** \param own samples, which images follow
    * \param sides of the box that they repeat in, which begins where coordinates do
-   * \param parameters JSON of InterpolationParameters */
+   * \param parameters JSON of InterpolationParameters
+   * \param mask null: the samples say where the data are */
   Interpolator(const DatasetPtr& samples,
                std::size_t own,
                const std::array<double, 3>& sides,
                const std::string& parameters,
+               const CellMask* mask,
                unsigned threads,
                const py::object& progress)
       : samples_(samples)
@@ -69,8 +73,11 @@ public:
         parameters_.model = chooseModel(view_, own_, parameters_, threads, report_)
                                 .scores.front()
                                 .model;
-      interpolator_ = std::make_unique<FieldInterpolator>(
+      auto interpolator = std::make_unique<FieldInterpolator>(
           view_, indices_, parameters_, threads, report_);
+      if (mask)
+        interpolator->setCells(mask->cells);
+      interpolator_ = std::move(interpolator);
       report_.progress = nullptr;
     });
   }
@@ -311,11 +318,13 @@ placeSlice(const Place& point,
 void
 bindInterpolation(py::module_& module)
 {
+  py::class_<CellMask>(module, "CellMask");
   py::class_<Interpolator>(module, "Interpolator")
       .def(py::init<const DatasetPtr&,
                     std::size_t,
                     const std::array<double, 3>&,
                     const std::string&,
+                    const CellMask*,
                     unsigned,
                     const py::object&>())
       .def("answer", &Interpolator::answer)

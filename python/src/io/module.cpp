@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The extension _io: files, which take VTK's libraries with them.
+#include "io/cell_loader.h"
 #include "io/held_fields.h"
 #include "io/lattice_file.h"
+#include "shared/cell_mask.h"
 #include "shared/convert.h"
 #include "shared/interruptible.h"
 #include <pcl_uvol/common/exceptions.h>
@@ -22,6 +24,20 @@ namespace {
 template <typename T>
 using DenseArray = py::array_t<T, py::array::c_style | py::array::forcecast>;
 
+LoadOptions
+makeOptions(const std::array<std::string, 3>& xyz_columns,
+            const std::string& particles,
+            bool cells,
+            const MapNumbers& map)
+{
+  LoadOptions options;
+  options.xyz_columns = xyz_columns;
+  options.particles = particles;
+  options.cells = cells;
+  options.map = toMap(map);
+  return options;
+}
+
 DatasetPtr
 readPoints(const std::string& path,
            const std::array<std::string, 3>& xyz_columns,
@@ -30,17 +46,38 @@ readPoints(const std::string& path,
            const MapNumbers& map,
            const py::object& progress)
 {
-  LoadOptions options;
-  options.xyz_columns = xyz_columns;
-  options.particles = particles;
-  options.cells = cells;
-  options.map = toMap(map);
+  LoadOptions options = makeOptions(xyz_columns, particles, cells, map);
   DatasetPtr points;
   runInterruptibly(progress, [&](const ProgressCallback& callback) {
     options.progress = callback;
     points = share(loadDataset(path, options));
   });
   return points;
+}
+
+/** Where the data of points that were read so are.
+ * \return the cells, and what was wrong with them */
+py::tuple
+readCells(const std::string& path,
+          const std::array<std::string, 3>& xyz_columns,
+          const std::string& particles,
+          bool cells,
+          const MapNumbers& map,
+          const Dataset& points)
+{
+  const LoadOptions options = makeOptions(xyz_columns, particles, cells, map);
+  CellMask mask;
+  Report report;
+  {
+    const py::gil_scoped_release unlocked;
+    try {
+      mask.cells = loadCells(path, options, points);
+    }
+    catch (const IOError& error) {
+      report.warn("cells_not_used", {{"reason", error.message()}});
+    }
+  }
+  return py::make_tuple(mask, toDicts(report.warnings));
 }
 
 py::tuple
@@ -159,6 +196,7 @@ PYBIND11_MODULE(_io, module)
   using namespace pcl_uvol::python;
   py::module_::import("pcl_uvol._core"); // the dataset's class
   module.def("read", &readPoints);
+  module.def("read_cells", &readCells);
   module.def("read_mesh", &readMesh);
   module.def("write", &writePoints);
   module.def("write_lattice", &writeLattice);
