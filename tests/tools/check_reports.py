@@ -20,7 +20,7 @@ uvol_isosurface star.pcd logarithms.ply -field star -iso 0.01 -smooth
 uvol_isosurface noisy.pcd both.ply -iso 0.2,0.3 -smooth -mu 0.5 -steps 5 -validate 2
 uvol_info probe_grid.nrrd star.pcd
 uvol_isosurface star.pcd filled.ply -field star -iso 0.01 -fill-gaps
-uvol_isosurface gyroid.ply repeated.ply -iso 0 -periodic 2,2,2
+uvol_isosurface gyroid.ply repeated.ply -iso 0 -periodic 12.56637061,12.56637061,12.56637061
 uvol_generate holes.csv -n 3000 -field gyroid -samples holes
 uvol_info holes.csv -out sampling.csv
 """
