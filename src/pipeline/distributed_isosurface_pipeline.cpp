@@ -11,6 +11,7 @@
 #include "pipeline/isopoint_filter.h"
 #include "pipeline/part_in_box.h"
 #include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/common/map_projection.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
 #include <cstdint>
@@ -75,6 +76,7 @@ finishIsopoints(const Isopoints& isopoints,
                                              threads,
                                              std::move(report));
   part.finish(communicator, result);
+  setGlobeFields(result.surface);
   return result;
 }
 
@@ -102,7 +104,6 @@ warnOfConflicts(Communicator& communicator, Report& report)
       addCounts({"samples", "conflicting_duplicates"}, report, communicator);
   warnOfConflicts(together.getCount("conflicting_duplicates"),
                   together.getCount("samples"),
-                  1,
                   report);
 }
 

@@ -11,6 +11,7 @@
 #include "pipeline/isopoint_choice.h"
 #include "pipeline/isopoint_filter.h"
 #include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/common/map_projection.h>
 
 #include <algorithm>
 #include <utility>
@@ -147,9 +148,9 @@ runPipelineOutOfCore(PointSource& points,
                                              alone,
                                              out_of_core.threads,
                                              std::move(report));
+  setGlobeFields(result.surface);
   warnOfConflicts(result.report.getCount("conflicting_duplicates"),
                   result.report.getCount("samples"),
-                  1,
                   result.report);
   warnOfLosses(resolved, result.surface.cloud.width, result.report);
   return result;

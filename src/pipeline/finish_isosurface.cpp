@@ -9,7 +9,6 @@
 #include "pipeline/isopoint_choice.h"
 #include "pipeline/isopoint_filter.h"
 #include "pipeline/periodic_surface.h"
-#include <pcl_uvol/common/map_projection.h>
 
 #include <pcl/conversions.h>
 
@@ -214,7 +213,6 @@ finishIsosurface(const Dataset& samples,
   result.errors = summarizeErrors(isopoints);
   if (parameters.mesh)
     addMesh(std::move(found), result);
-  setGlobeFields(result.surface);
   result.report = std::move(report);
   return result;
 }

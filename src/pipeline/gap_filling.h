@@ -73,25 +73,11 @@ takesLattice(const IsosurfacePipelineParameters& parameters);
 class PCL_UVOL_EXPORTS FilledGaps {
 public:
   /** \param input with the field and the scale that are taken; gets the samples and
-   * points to take with predicted ones
+   * points to take with predicted ones behind them, whose other fields are those of the
+   * nearest measured one
    * \throws InvalidArgument for a field that is not one of single numbers, and as
    * FieldInterpolation */
   FilledGaps(PipelineInput& input, unsigned threads, Report& report);
-
-  /** \brief All samples; other fields of predicted ones are those of the nearest
-   * measured one. */
-  const std::shared_ptr<const Dataset>&
-  getSamples() const
-  {
-    return filled_;
-  }
-
-  /** \brief The points to take, the predicted ones among them. */
-  const pcl::IndicesPtr&
-  getIndices() const
-  {
-    return indices_;
-  }
 
   const GapFilling&
   getSummary() const

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/large_array.h"
 #include "common/records.h"
 #include "common/sample_checks.h"
 #include "common/scalar_field.h"
@@ -12,23 +11,12 @@
 #include "pipeline/periodic_surface.h"
 #include "pipeline/pipeline_input.h"
 #include "pipeline/turned_axes.h"
+#include <pcl_uvol/common/map_projection.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
-#include <numeric>
 #include <utility>
 
 namespace pcl_uvol {
-
-pcl::Indices
-listPoints(const PipelineInput& input)
-{
-  if (input.use)
-    return *input.use;
-  pcl::Indices all;
-  resizeLarge(all, input.samples->cloud.width);
-  std::iota(all.begin(), all.end(), 0);
-  return all;
-}
 
 namespace {
 
@@ -39,8 +27,6 @@ resolve(const PipelineInput& input,
         unsigned threads,
         std::optional<ScaleChoice>& choice)
 {
-  if (!input.samples)
-    throw InvalidArgument("pipeline_without_input", {});
   IsosurfaceParameters parameters = input.parameters.isosurface;
   if (parameters.field.empty())
     parameters.field = ScalarField::defaultName(listNumberFields(*input.samples));
@@ -56,6 +42,17 @@ resolve(const PipelineInput& input,
                        own);
   parameters.scale = choice->scale;
   return parameters;
+}
+
+/** What a pipeline works on before the first step. */
+PipelineInput
+takeInput(const std::shared_ptr<const Dataset>& samples,
+          const pcl::IndicesPtr& use,
+          const IsosurfacePipelineParameters& parameters)
+{
+  if (!samples)
+    throw InvalidArgument("pipeline_without_input", {});
+  return {samples, use, parameters};
 }
 
 /** Runs the pipeline on parts of its samples: for a hold-out test. */
@@ -95,7 +92,8 @@ IsosurfaceParameters
 IsosurfacePipeline::resolveParameters(std::optional<ScaleChoice>* choice) const
 {
   std::optional<ScaleChoice> found;
-  const auto parameters = resolve({samples_, indices_, parameters_}, threads_, found);
+  const auto parameters =
+      resolve(takeInput(samples_, indices_, parameters_), threads_, found);
   if (choice && found)
     *choice = found;
   return parameters;
@@ -114,14 +112,13 @@ IsosurfacePipeline::run()
 {
   checkParameters(parameters_);
   startReport();
-  PipelineInput input{samples_, indices_, parameters_};
+  PipelineInput input = takeInput(samples_, indices_, parameters_);
   std::optional<ScaleChoice> scale_choice;
   std::optional<SamplingSummary> sampling;
   std::unique_ptr<detail::FilledGaps> gaps;
 
   const TurnedAxes axes(input);
   input.parameters.isosurface = resolve(input, threads_, scale_choice);
-  input.parameters.automatic_scale = false;
   const ValidationParameters& validation = parameters_.validation;
   std::optional<Folds> folds; // a field that is none fails early
   if (validation.folds > 0)
@@ -133,17 +130,15 @@ IsosurfacePipeline::run()
   }
   const RepeatedBox box(input, threads_, report_);
 
-  IsosurfaceExtraction<pcl::PCLPointCloud2> other;
-  if (input.samples != samples_) {
+  ExtractedSurface surface;
+  if (input.samples == samples_)
+    surface = extractSurface(input, extraction_, sampling, threads_, report_);
+  else {
+    IsosurfaceExtraction<pcl::PCLPointCloud2> other;
     other.setInputCloud(shareCloud(input));
     other.setIndices(input.use);
+    surface = extractSurface(input, other, sampling, threads_, report_);
   }
-  ExtractedSurface surface =
-      extractSurface(input,
-                     input.samples == samples_ ? extraction_ : other,
-                     sampling,
-                     threads_,
-                     report_);
   SelfCommunicator alone;
   IsosurfaceResult result = finishIsosurface(*input.samples,
                                              std::move(surface.triangles),
@@ -168,6 +163,7 @@ IsosurfacePipeline::run()
         result.validation, measured.parameters, result.sampling, result.report);
   }
   axes.leave(result);
+  setGlobeFields(result.surface);
   report_ = result.report;
   return result;
 }

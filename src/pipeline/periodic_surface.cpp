@@ -5,7 +5,6 @@
 #include "common/scalar_field.h"
 #include "pipeline/periodic_mesh.h"
 #include <pcl_uvol/common/cloud_view.h>
-#include <pcl_uvol/common/map_projection.h>
 
 #include <algorithm>
 #include <array>
@@ -209,7 +208,6 @@ RepeatedBox::leave(const IsosurfacePipelineParameters& parameters,
       if (piece.isovalue == parameters.isosurface.isovalues[i])
         result.isopoints[i] += piece.vertices;
   }
-  setGlobeFields(result.surface);
 }
 
 } // namespace pcl_uvol

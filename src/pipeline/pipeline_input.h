@@ -2,12 +2,14 @@
 // What the steps of IsosurfacePipeline work on.
 #pragma once
 
+#include "common/large_array.h"
 #include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>
 
 #include <pcl/types.h>
 
 #include <memory>
+#include <numeric>
 
 namespace pcl_uvol {
 
@@ -27,7 +29,15 @@ shareCloud(const PipelineInput& input)
 }
 
 /** \brief The points to take. */
-pcl::Indices
-listPoints(const PipelineInput& input);
+inline pcl::Indices
+listPoints(const PipelineInput& input)
+{
+  if (input.use)
+    return *input.use;
+  pcl::Indices all;
+  resizeLarge(all, input.samples->cloud.width);
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
 
 } // namespace pcl_uvol

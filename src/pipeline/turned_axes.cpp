@@ -2,7 +2,6 @@
 #include "pipeline/turned_axes.h"
 
 #include "levelset/level_set_input.h"
-#include <pcl_uvol/common/map_projection.h>
 
 #include <memory>
 
@@ -24,10 +23,8 @@ TurnedAxes::TurnedAxes(PipelineInput& input)
 void
 TurnedAxes::leave(IsosurfaceResult& result) const
 {
-  if (!axes_.areTurned())
-    return;
-  axes_.turnBack(result.surface.cloud);
-  setGlobeFields(result.surface);
+  if (axes_.areTurned())
+    axes_.turnBack(result.surface.cloud);
 }
 
 } // namespace pcl_uvol

@@ -3,6 +3,7 @@
 
 #include "levelset/phi_cloud.h"
 #include "pipeline/finish_isosurface.h"
+#include <pcl_uvol/common/map_projection.h>
 #include <pcl_uvol/levelset/level_set_evolution.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>
 
@@ -121,14 +122,16 @@ extractSnapshot(const Dataset& samples,
   SurfaceTriangles found = extractZeroLevel(
       viewOf(samples.cloud), phi, {}, how.isosurface, std::nullopt, threads, report);
   SelfCommunicator alone;
-  return finishIsosurface(samples,
-                          std::move(found),
-                          how,
-                          std::nullopt,
-                          alone,
-                          threads,
-                          std::move(report))
-      .surface;
+  Dataset surface = finishIsosurface(samples,
+                                     std::move(found),
+                                     how,
+                                     std::nullopt,
+                                     alone,
+                                     threads,
+                                     std::move(report))
+                        .surface;
+  setGlobeFields(surface);
+  return surface;
 }
 
 } // namespace pcl_uvol

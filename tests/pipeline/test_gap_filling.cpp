@@ -462,9 +462,8 @@ TEST(GapFilling, PredictsNothingBeyondTheRange)
   PipelineInput input{samples, nullptr, makeParameters(true)};
   Report report;
   const detail::FilledGaps gaps(input, 0, report);
-  const CloudView cloud = viewOf(gaps.getSamples()->cloud);
+  const CloudView cloud = viewOf(input.samples->cloud);
   ASSERT_EQ(measured + gaps.getSummary().predicted, cloud.count);
-  ASSERT_EQ(cloud.count, gaps.getIndices()->size());
   ASSERT_GT(gaps.getSummary().predicted, 0u);
   for (std::size_t i = measured; i < cloud.count; ++i) {
     float nearest = INFINITY;

@@ -214,7 +214,7 @@ predict(const pcl::PointCloud<pcl::PointXYZI>& cloud)
   PipelineInput input{toDataset(cloud), nullptr, makeParameters(0.0, true)};
   Report report;
   const detail::FilledGaps gaps(input, 0, report);
-  const CloudView filled = viewOf(gaps.getSamples()->cloud);
+  const CloudView filled = viewOf(input.samples->cloud);
   Predicted predicted{filled.count - cloud.size(),
                       std::numeric_limits<double>::infinity()};
   for (std::size_t i = cloud.size(); i < filled.count; ++i)

@@ -197,6 +197,15 @@ TEST(TurnedPipeline, FindsTheScaleAlongTheAxes)
   EXPECT_FALSE(uvol_test::runPipeline(makeLayers(0.4), parameters).scale_choice);
 }
 
+TEST(TurnedPipeline, NeedsSamples)
+{
+  IsosurfacePipelineParameters parameters = makeParameters();
+  parameters.rotation = angles;
+  IsosurfacePipeline pipeline;
+  pipeline.setParameters(parameters);
+  EXPECT_THROW(pipeline.run(), InvalidArgument);
+}
+
 TEST(TurnedPipeline, RefusesABoxThatRepeatsAndBadAngles)
 {
   IsosurfacePipelineParameters parameters = makeParameters();
