@@ -17,15 +17,11 @@ refuseNames(const Dataset& samples, const std::string& field)
 }
 
 void
-warnOfConflicts(std::uint64_t conflicting,
-                std::uint64_t samples,
-                std::size_t fields,
-                Report& report)
+warnOfConflicts(std::uint64_t conflicting, std::uint64_t values, Report& report)
 {
   constexpr double most_unnoticed = 0.03;
-  const double share =
-      static_cast<double>(conflicting) /
-      static_cast<double>(std::max<std::uint64_t>(samples * fields, 1));
+  const double share = static_cast<double>(conflicting) /
+                       static_cast<double>(std::max<std::uint64_t>(values, 1));
   if (share <= most_unnoticed)
     return;
   report.warn("conflicting_samples", {{"percent", std::round(100.0 * share)}});

@@ -6,7 +6,6 @@
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/stage.h>
 
-#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -19,13 +18,9 @@ refuseNames(const Dataset& samples, const std::string& field);
 
 /** \brief Warn where more than a few of the places of samples have several values, as
  * those of repeated experiments do.
- * \param conflicting values that are the median of different ones, of all fields
- * \param samples places
- * \param fields number of fields */
+ * \param conflicting values that are the median of different ones
+ * \param values one of each field at each place */
 PCL_UVOL_EXPORTS void
-warnOfConflicts(std::uint64_t conflicting,
-                std::uint64_t samples,
-                std::size_t fields,
-                Report& report);
+warnOfConflicts(std::uint64_t conflicting, std::uint64_t values, Report& report);
 
 } // namespace pcl_uvol

@@ -126,7 +126,8 @@ struct FieldInterpolator::Group {
   SampledFields sampled;
   std::unique_ptr<FieldModel> model;
 
-  void
+  /** \return how many values are the median of different ones */
+  std::uint64_t
   build(const CloudView& cloud,
         const InterpolationParameters& parameters,
         const std::vector<std::string>& names,
@@ -139,17 +140,19 @@ struct FieldInterpolator::Group {
                                        toPosition(parameters.scale),
                                        threads,
                                        report);
-    gatherValues(threads, report);
+    const std::uint64_t conflicting = gatherValues(threads, report);
     columns.clear();
     std::vector<std::string> own_names;
     for (const std::size_t field : fields)
       own_names.push_back(names[field]);
     model =
         makeModel(sampled, parameters, turn, frames, own_names, cloud, threads, report);
+    return conflicting;
   }
 
-  /** Values into leaf order; a merged sample takes the median of its members'. */
-  void
+  /** Values into leaf order; a merged sample takes the median of its members'.
+   * \return how many of these differ */
+  std::uint64_t
   gatherValues(unsigned threads, Report& report)
   {
     const SampleSet& samples = *sampled.samples;
@@ -171,7 +174,7 @@ struct FieldInterpolator::Group {
                 .value;
       }
     report.count("conflicting_duplicates", conflicting);
-    warnOfConflicts(conflicting, samples.size(), fields.size(), report);
+    return conflicting;
   }
 
   /** Which queries are inside of cells whose samples have the fields: 1, others 0. */
@@ -354,8 +357,12 @@ FieldInterpolator::FieldInterpolator(const CloudView& input,
     group.frames.push_back(frame);
     group.columns.push_back(std::move(values));
   }
-  for (Group& group : groups_)
-    group.build(cloud, parameters_, names_, threads, report);
+  std::uint64_t conflicting = 0, values = 0;
+  for (Group& group : groups_) {
+    conflicting += group.build(cloud, parameters_, names_, threads, report);
+    values += group.sampled.values.size();
+  }
+  warnOfConflicts(conflicting, values, report);
 }
 
 FieldInterpolator::~FieldInterpolator() = default;

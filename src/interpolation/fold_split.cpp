@@ -46,8 +46,9 @@ FoldSplit::interpolate(const CloudView& cloud,
   const FieldInterpolator interpolator(cloud, rest, parameters, threads, own);
   InterpolatedFields result = interpolator.interpolate(places, threads, own);
   for (const Message& warning : own.warnings)
-    if (std::find(report.warnings.begin(), report.warnings.end(), warning) ==
-        report.warnings.end())
+    if (warning.code != "conflicting_samples" && // which all samples together tell of
+        std::find(report.warnings.begin(), report.warnings.end(), warning) ==
+            report.warnings.end())
       report.warnings.push_back(warning);
   return result;
 }

@@ -73,7 +73,7 @@ gatherValues(const SampleSet& samples,
     scalar.sources[merged.sample] = found.source;
   }
   report.count("conflicting_duplicates", conflicting);
-  warnOfConflicts(conflicting, samples.size(), 1, report);
+  warnOfConflicts(conflicting, samples.size(), report);
   return scalar;
 }
 
