@@ -4,7 +4,7 @@
 import functools
 import os
 
-from . import _arrays, _map, _parameters, _report
+from . import _arrays, _core, _map, _parameters, _report
 from ._progress import listening
 from ._samples import Samples, as_samples
 
@@ -68,13 +68,27 @@ def read(path, xyz=("", "", ""), particles="", cells=False, progress=None, map=N
                            _map.wanted(map), listener)
     _report.tell(dataset.notes)
     samples = Samples._of(dataset)
-    samples._read_cells = functools.partial(_read_cells, os.fsencode(path), columns, str(particles), cells, _map.wanted(map))
+    if str(path) != "-":
+        place = os.path.abspath(os.fsencode(path))
+        samples._read_cells = functools.partial(_read_cells, place, _state_of(place), columns, str(particles), cells, _map.wanted(map))
     return samples
 
 
-def _read_cells(*arguments):
+def _state_of(path):
+    """What differs once a file is written again; None of what is no file, such as "file.h5:/group"."""
+    try:
+        found = os.stat(path)
+    except OSError:
+        return None
+    return found.st_mtime_ns, found.st_size
+
+
+def _read_cells(path, state, *arguments):
+    """The cells of a file that samples were read from, and what was wrong with them."""
     from . import _io
-    return _io.read_cells(*arguments)  # which pickle does not take
+    if state != _state_of(path):
+        return None, [_core.make_message("cells_not_used", {"reason": "The file is another one than when its points were read."})]
+    return _io.read_cells(path, *arguments)
 
 
 @_parameters.with_proposals

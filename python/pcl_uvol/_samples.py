@@ -55,6 +55,7 @@ class Samples(Drawable, Points):
             raise TypeError("Samples and structured arrays have their fields: give fields with an array of points.")
         if isinstance(points, Points):
             self._begin(points._dataset)
+            self._read_cells = getattr(points, "_read_cells", None)
             return
         dataset = None
         if is_structured:
@@ -68,9 +69,11 @@ class Samples(Drawable, Points):
         _report.tell(self._dataset.notes)
 
     @classmethod
-    def _of(cls, dataset, report=None, parameters=None):
+    def _of(cls, dataset, report=None, parameters=None, like=None):
+        """`like` has the same points: what is known of their file goes for these as well."""
         samples = cls.__new__(cls)
         samples._begin(dataset)
+        samples._read_cells = None if like is None else like._read_cells
         samples.report = {} if report is None else report
         samples.parameters = _parameters.Parameters(parameters or {})
         return samples
@@ -168,7 +171,7 @@ class Samples(Drawable, Points):
             dataset, report = self._dataset.with_density(parameters["length"], _parameters.count(threads, "threads"),
                                                          listener)
         _report.tell(report["warnings"])
-        return Samples._of(dataset, report, parameters)
+        return Samples._of(dataset, report, parameters, like=self)
 
     @_parameters.with_proposals
     def sampling(self, scale=(1.0, 1.0, 1.0), rotate=None, threads=0, progress=None):
@@ -199,7 +202,7 @@ class Samples(Drawable, Points):
         with listening(progress) as listener:
             dataset = _core.with_sampling(self._dataset, *parameters.values(), _parameters.count(threads, "threads"),
                                           listener)
-        return Samples._of(dataset, None, parameters)
+        return Samples._of(dataset, None, parameters, like=self)
 
     @_parameters.with_proposals
     def outer_layer(self, value, field="", threads=0, progress=None):
@@ -308,7 +311,7 @@ class Samples(Drawable, Points):
             with listening(progress) as listener:
                 dataset, name, report = self._dataset.with_field(expression, "", sides, _parameters.count(threads, "threads"),
                                                                  listener)
-            samples = self if dataset is self._dataset else Samples._of(dataset)
+            samples = self if dataset is self._dataset else Samples._of(dataset, like=self)
             self._derived[made] = (samples, name, report["warnings"])
         samples, name, messages = self._derived[made]
         _report.tell(messages)
@@ -348,9 +351,10 @@ class Samples(Drawable, Points):
     def _find_cells(self):
         """The cells of the file that these samples are all of; None of other samples."""
         if self._cells is None and self._read_cells is not None:
-            self._cells, warnings = self._read_cells(self._dataset)
-            _report.tell(warnings)
-        return self._cells
+            self._cells = self._read_cells(self._dataset)
+        cells, messages = self._cells or (None, [])
+        _report.tell(messages)
+        return cells
 
     def __repr__(self):
         fields = []

@@ -45,7 +45,7 @@ findInterval(vtkDataArray& coordinates, double number)
   int low = 0, high = static_cast<int>(coordinates.GetNumberOfTuples()) - 1;
   while (high - low > 1) {
     const int middle = (low + high) / 2;
-    (coordinates.GetTuple1(middle) <= number ? low : high) = middle;
+    (coordinates.GetComponent(middle, 0) <= number ? low : high) = middle;
   }
   return low;
 }

@@ -32,7 +32,7 @@ public:
   enum class Samples { Corners, Centers };
 
   /** \param mesh at least one cell, all of them solid; its points are changed
-   * \param count number of the samples
+   * \param count number of the samples; 0: whatever samples are used, all cells count
    * \param origin of the samples' coordinates */
   CellLocator(vtkSmartPointer<vtkDataSet> mesh,
               Samples samples,

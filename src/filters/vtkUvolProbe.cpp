@@ -15,6 +15,7 @@
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
+#include <vtkPolyData.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkWeakPointer.h>
 
@@ -91,18 +92,23 @@ addArrays(const InterpolatedFields& answers, vtkPointData& data)
   data.AddArray(support);
 }
 
-/** The cells of a source; null if it has none. */
+/** The cells of a source; null if it has none. Where points are marked as copies, which
+ * are no samples, cells count whatever values their corners have. */
 std::shared_ptr<const pcl_uvol::CellLocator>
 findCells(vtkDataSet& source, const std::array<double, 3>& origin)
 {
   using pcl_uvol::CellLocator;
+  if (vtkPolyData::SafeDownCast(&source))
+    return nullptr;
   const pcl_uvol::SolidCells solid = pcl_uvol::takeSolidCells(source);
   if (solid.mesh->GetNumberOfCells() == 0)
     return nullptr;
   return std::make_shared<const CellLocator>(
       solid.mesh,
       CellLocator::Samples::Corners,
-      static_cast<std::size_t>(source.GetNumberOfPoints()),
+      source.GetPointGhostArray()
+          ? std::size_t{0}
+          : static_cast<std::size_t>(source.GetNumberOfPoints()),
       origin);
 }
 

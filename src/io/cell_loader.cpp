@@ -4,6 +4,7 @@
 #include "io/files.h"
 #include "io/unpacked_file.h"
 #include "io/vtk_library.h"
+#include <pcl_uvol/common/map_projection.h>
 
 namespace pcl_uvol {
 
@@ -12,7 +13,7 @@ loadCells(const std::string& path, const LoadOptions& options, const Dataset& sa
 {
   const bool is_read = io::findFormat(path, options) == io::FileFormat::Vtk &&
                        io::getEnding(path) != ".vtp" && !io::isPacked(path) &&
-                       !io::isStandardStream(path);
+                       !io::isStandardStream(path) && !findMap(samples);
   if (!is_read)
     return nullptr;
   return io::reading(

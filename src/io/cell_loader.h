@@ -17,8 +17,8 @@ namespace pcl_uvol {
  * VTK's own readers do it, in a child process with limits.
  * \param options that the samples were read with
  * \param samples of the same file
- * \return null for a file of another format, a packed one, and one without such cells
- * \throws IOError */
+ * \return null for a file of another format, a packed one, one without such cells, and
+ * samples on a map \throws IOError */
 PCL_UVOL_EXPORTS std::shared_ptr<const detail::SampleCells>
 loadCells(const std::string& path, const LoadOptions& options, const Dataset& samples);
 

@@ -32,6 +32,14 @@ throwUnreadable(const std::string& path, std::size_t line, const std::string& re
 [[noreturn]] PCL_UVOL_EXPORTS void
 throwUnwritable(const std::string& path, const std::string& reason);
 
+/** \brief A sentence as a part of another one. */
+inline std::string
+withoutDot(const std::string& sentence)
+{
+  const bool has_dot = !sentence.empty() && sentence.back() == '.';
+  return has_dot ? sentence.substr(0, sentence.size() - 1) : sentence;
+}
+
 /** \brief Call what reads a file; numbers it cannot take and a lack of memory are
  * errors of the file.
  * \throws IOError */
@@ -43,7 +51,7 @@ reading(const std::string& path, const Reader& read)
     return read();
   }
   catch (const InvalidArgument& error) {
-    throw IOError("Cannot read '" + printable(path) + "': " + error.message());
+    throwUnreadable(path, withoutDot(error.message()));
   }
   catch (const std::bad_alloc&) {
     throwUnreadable(path, "there is not enough memory for it");

@@ -31,10 +31,8 @@ ScenePlace::text() const
 void
 throwAt(const ScenePlace& place, const std::string& reason)
 {
-  const bool has_dot = !reason.empty() && reason.back() == '.';
   throw IOError("scene_line",
-                {{"place", place.text()},
-                 {"reason", has_dot ? reason.substr(0, reason.size() - 1) : reason}});
+                {{"place", place.text()}, {"reason", io::withoutDot(reason)}});
 }
 
 std::string

@@ -288,6 +288,18 @@ TEST(VtkProbeOfCells, CellsSayWhereTheDataAre)
   told = values();
   EXPECT_NEAR(17.0, told[0], 1e-6);
   EXPECT_NEAR(39.0, told[2], 1e-6);
+  probe->CellMaskOn();
+  // Another part has the points at the border: their cells still count.
+  vtkNew<vtkUnsignedCharArray> ghosts;
+  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
+  for (vtkIdType i = 0; i < source->GetNumberOfPoints(); ++i)
+    ghosts->InsertNextValue(
+        source->GetPoint(i)[2] == 0.0 ? vtkDataSetAttributes::DUPLICATEPOINT : 0);
+  source->GetPointData()->AddArray(ghosts);
+  source->Modified();
+  told = values();
+  EXPECT_NEAR(22.8, told[1], 0.1);
+  EXPECT_TRUE(std::isnan(told[2])) << told[2];
   double corner[3]; // the source is as it was
   source->GetPoint(source->GetNumberOfPoints() - 1, corner);
   EXPECT_EQ(8.0, corner[0]);

@@ -337,13 +337,20 @@ def test_cells_of_a_file_say_where_the_data_are(notched):
     assert answers.support[2] == 7
     assert np.isnan(pickle.loads(pickle.dumps(interpolator)).evaluate(places).values[2])
     assert np.allclose(uvol.Interpolator(samples, field="f", cell_mask=False).evaluate(places).values, [17, 22.8, 39], atol=1e-5)
+    for same in samples.compute("2*f"), uvol.Samples(samples), pickle.loads(pickle.dumps(samples)):
+        assert np.isnan(uvol.Interpolator(same, field="f").evaluate(places).values[2])
     assert np.allclose(uvol.Interpolator(samples.where("f < 100"), field="f").evaluate(places).values[2], 39, atol=1e-5)
 
 
-def test_cells_that_are_gone_are_told_of(notched):
+def test_cells_of_a_file_that_has_changed_are_told_of(notched, monkeypatch):
+    monkeypatch.chdir(notched.parent)
+    samples = uvol.read(notched.name)
+    monkeypatch.chdir("/")
+    assert np.isnan(uvol.Interpolator(samples, field="f").evaluate([[6.5, 6.5, 6.5]]).values[0])
     samples = uvol.read(notched)
-    notched.unlink()
-    with pytest.warns(uvol.ResultWarning) as warned:
-        interpolator = uvol.Interpolator(samples, field="f")
-    assert "cells_not_used" in [warning.message.code for warning in warned]
+    notched.write_text(notched.read_text() + "\n")
+    for _ in range(2):
+        with pytest.warns(uvol.ResultWarning) as warned:
+            interpolator = uvol.Interpolator(samples, field="f")
+        assert "cells_not_used" in [warning.message.code for warning in warned]
     assert np.isfinite(interpolator.evaluate([[6.5, 6.5, 6.5]]).values[0])

@@ -17,7 +17,7 @@ struct Report;
 } // namespace pcl_uvol
 
 /** \brief Fields of samples at the points of other data, as vtkProbeFilter and
- * vtkPointInterpolator, but straight from samples without cells: what
+ * vtkPointInterpolator, but straight from samples, with or without cells: what
  * pcl_uvol::FieldInterpolation and the tool uvol_probe find.
  *
  * \code
@@ -30,8 +30,8 @@ struct Report;
  * its standard error (density_error), its gradient if asked for (density_gradient), and
  * support (unsigned char, a pcl_uvol::FieldSupport: 1 samples all around, 2 a gap, 3 a
  * rim, 5 samples that do not determine the model, 6 no place, 7 outside). Outside of
- * the samples values are NaN. Where the input has an array of such a name, the name
- * gets _2.
+ * the samples, or of their cells where they have any, values are NaN. Where the input
+ * has an array of such a name, the name gets _2.
  *
  * Points of the source that vtkGhostType marks as duplicate or hidden are left out. The
  * model is kept until source or parameters change. Errors, warnings, progress and abort

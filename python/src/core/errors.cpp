@@ -18,11 +18,12 @@ namespace py = pybind11;
 
 namespace {
 
-/** Core and expressions begin so where a name is not that of a field. */
 bool
-isOfMissingField(const std::string& message)
+isOfMissingField(const Message& message)
 {
-  return message.rfind("There is no field ", 0) == 0;
+  const std::string& code = message.code;
+  return code == "unknown_field" || code == "unknown_lone_field" ||
+         code == "unknown_operand";
 }
 
 /** \param message its code becomes an attribute, None where it is but a text */
@@ -62,8 +63,8 @@ bindErrors(py::module_& module)
       raise(PyExc_MemoryError, error.asMessage());
     }
     catch (const Exception& error) {
-      raise(isOfMissingField(error.message()) ? errors.attr("FieldError")
-                                              : py::handle(PyExc_ValueError),
+      raise(isOfMissingField(error.asMessage()) ? errors.attr("FieldError")
+                                                : py::handle(PyExc_ValueError),
             error.asMessage());
     }
     catch (const std::bad_alloc&) {
