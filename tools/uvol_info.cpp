@@ -300,7 +300,7 @@ describeCloud(const Options& options,
   report.count("points", dataset.cloud.width);
   std::string chosen = chosenField(arguments, dataset);
   if (dataset.cloud.width == 0) {
-    report.warn("no_points", {{"path", input}});
+    report.warn("no_points_in_file", {{"path", input}});
     return facts;
   }
   pcl_uvol::detail::Stretch stretch;

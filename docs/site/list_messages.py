@@ -52,7 +52,7 @@ def split_choice(inner):
 
 
 def readable(text):
-    """A text as a page shows it: values as "...", parameters as options, the second of two texts."""
+    """A text as a page shows it: values as "...", parameters as options."""
     shown, i = "", 0
     while i < len(text):
         if text[i] != "{":
@@ -67,7 +67,10 @@ def readable(text):
         elif len(parts) == 1:
             shown += "..."
         else:
-            shown += readable(parts[2] if len(parts) > 2 and parts[2] else parts[1])
+            one, other = (readable(part) for part in (parts[1:] + [""])[:2])
+            # Of two clauses both are shown, of "point" and "points" the second.
+            words = sorted([one.count(" "), other.count(" ")])
+            shown += f"{other.strip()} / {one.strip()}" if words >= [3, 5] and words[1] >= 5 else other or one
         i = end + 1
     return shown.replace("|", "\\|").replace("\\n...", "")  # the marked lines of an expression
 

@@ -10,7 +10,8 @@ namespace {
 const MessageText warning_rows[] = {
     // common
     {"repeated_field", "A further field '{field}' is called '{name}'."},
-    {"more_repeated_fields", "{fields} more fields are told apart in the same way."},
+    {"more_repeated_fields",
+     "{fields} more {fields|field is|fields are} told apart in the same way."},
     {"points_beyond_float",
      "{points} {points|point has|points have} a coordinate of 3.4e38 or more, which "
      "float does not hold. {points|It counts as a point|They count as points} "
@@ -83,7 +84,8 @@ const MessageText warning_rows[] = {
      "derivatives, because the standard error is larger than the differences "
      "between values. These points have no value."},
     {"reduced_derivatives",
-     "Around {samples} samples others lie on few planes or lines: derivatives "
+     "Around {samples} {samples|sample|samples} others lie on few planes or lines: "
+     "derivatives "
      "across these count as 0."},
 
     // isosurface
@@ -123,8 +125,8 @@ const MessageText warning_rows[] = {
     {"unsure_pieces",
      "{unsure} of {pieces} pieces (area {area} +- {error}) have an error as large "
      "as they are: few samples are around them, or only debris far from the others. "
-     "{are_left_out|They are left out of all figures.|Try: uvol_measure with "
-     "{-drop-unsure} leaves them out.}"},
+     "{are_left_out|They are left out of all figures.|Try: {-drop-unsure} "
+     "leaves them out of the measures.}"},
     {"flat_surfaces",
      "{flat} of {surfaces} surfaces have no volume, and no samples inside: a mesh "
      "in one plane encloses nothing. If all samples are in one plane, the "
@@ -222,8 +224,8 @@ const MessageText warning_rows[] = {
     {"smoothed_guesses",
      "{percent} % of the isopoints lie between lines of samples or beside gaps: "
      "where the surface crosses a line is known, how it runs from there is a guess. "
-     "The isosurface through the same samples can be tested (uvol_isosurface "
-     "{-validate}), and its gaps filled ({-fill-gaps})."},
+     "The isosurface through the same samples can be tested "
+     "({-validate}), and its gaps filled ({-fill-gaps})."},
     {"guessed_border",
      "{percent} % of the isopoints lie in or beside gaps between samples, and where "
      "the border of the cluster runs there is a guess."},
@@ -322,8 +324,11 @@ const MessageText warning_rows[] = {
     {"several_names",
      "The attribute '{attribute}' has several names per point: it holds their "
      "numbers."},
-    {"file_attributes", "{attributes} attributes of the whole file are left out."},
-    {"point_groups", "{groups} groups of points are left out."},
+    {"file_attributes",
+     "{attributes} {attributes|attribute|attributes} of the whole file "
+     "{attributes|is|are} left out."},
+    {"point_groups",
+     "{groups} {groups|group|groups} of points {groups|is|are} left out."},
     {"mixed_units",
      "Coordinates are {x}, {y} and {z}, so distances mix {are_degrees|degrees with "
      "another unit|different units of length}. Try: {can_be_mapped|{-map auto}, "
@@ -352,7 +357,8 @@ const MessageText warning_rows[] = {
     {"numbered_names_listed",
      "{path} holds numbers only: the names in {fields} are counted from 0 in "
      "alphabetical order, and comments of the file list them."},
-    {"extra_bytes", "{bytes} extra bytes of every point are left out."},
+    {"extra_bytes",
+     "{bytes} extra {bytes|byte|bytes} of every point {bytes|is|are} left out."},
     {"unnamed_columns",
      "The array names no columns: those behind x, y and z are called column_3 and "
      "so on."},
@@ -367,7 +373,8 @@ const MessageText warning_rows[] = {
      "not give the Hubble parameter}."},
     {"repeated_column",
      "Line {line} names '{name}' again: that column is called '{column}'."},
-    {"more_repeated_columns", "{columns} more columns are told apart in the same way."},
+    {"more_repeated_columns",
+     "{columns} more {columns|column is|columns are} told apart in the same way."},
     {"no_header_line",
      "There is no header line: the columns are called column_0 to column_{last}."},
     {"guessed_coordinates",
@@ -385,17 +392,20 @@ const MessageText warning_rows[] = {
     {"wide_table",
      "The table '{table}' has {components} numbers per point and is left out."},
     {"several_groups",
-     "Points are read from '{group}'; {others} other groups hold points too, as in "
+     "Points are read from '{group}'; {others} other {others|group holds|groups hold} "
+     "points too, as in "
      "file.h5:{other}."},
     {"vertical_axis", "z is {z}."},
-    {"dead_particles", "{dead} dead particles (h <= 0) are left out."},
+    {"dead_particles",
+     "{dead} dead {dead|particle|particles} (h <= 0) {dead|is|are} left out."},
     {"field_of_some_parts",
      "The field '{field}' is left out: not all of the parts have it."},
     {"last_time", "Of {times} times the last one is read, {last}."},
     {"first_listed_time",
      "Of the times that '{list}' lists the first one, {time}, is read."},
     {"repeated_files",
-     "The list '{list}' names files again {times} times: each of them is read once."},
+     "The list '{list}' names files again {times} {times|time|times}: each of them is "
+     "read once."},
     {"array_without_numbers", "The array '{array}' holds no numbers and is left out."},
     {"wide_array",
      "The array '{array}' has {components} numbers per point and is left out."},
@@ -428,6 +438,7 @@ const MessageText warning_rows[] = {
     {"repeated_colors",
      "The points have more than {most} names in '{field}': their colours repeat, "
      "and the picture has no legend."},
+    {"no_points_in_file", "{path} has no points."},
     {"no_finite_points", "{path} has no point with finite x, y, z."},
     {"no_coordinate_columns",
      "{path} names no columns of coordinates: {-xyz} chooses them."},
