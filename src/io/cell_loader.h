@@ -18,7 +18,8 @@ namespace pcl_uvol {
  * \param options that the samples were read with
  * \param samples of the same file
  * \return null for a file of another format, a packed one, one without such cells, and
- * samples on a map \throws IOError */
+ * samples on a map
+ * \throws IOError */
 PCL_UVOL_EXPORTS std::shared_ptr<const detail::SampleCells>
 loadCells(const std::string& path, const LoadOptions& options, const Dataset& samples);
 
