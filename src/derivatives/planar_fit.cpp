@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "derivatives/planar_fit.h"
 
+#include "common/eigen_solvers.h"
+
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 
@@ -78,12 +80,13 @@ struct Polynomial {
       : terms(term_count)
   {
     factors.setThreshold(smallest_planar_pivot);
-    factors.compute(weighted.leftCols(terms));
+    factors.compute(Eigen::MatrixXd(weighted.leftCols(terms)));
     const Eigen::Index freedom = weight_count - terms;
     is_determined = factors.rank() == terms && freedom >= least_freedom;
     if (!is_determined)
       return;
-    coefficients.head(terms) = factors.solve(values);
+    const VectorXd solution = factors.solve(values);
+    coefficients.head(terms) = solution;
     variance =
         (weighted * coefficients - values).squaredNorm() / static_cast<double>(freedom);
   }

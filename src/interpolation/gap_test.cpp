@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "interpolation/gap_test.h"
 
+#include "common/eigen_solvers.h"
 #include "common/parallel.h"
 
 #include <Eigen/Eigenvalues>

@@ -95,7 +95,8 @@ KrigingSystem::KrigingSystem(const Eigen::MatrixX3d& offsets,
     covariance_.compute(raised);
   }
   solved_terms_ = covariance_.solve(terms_);
-  trend_equations_.compute(terms_.transpose() * solved_terms_);
+  const Eigen::MatrixXd equations = terms_.transpose() * solved_terms_;
+  trend_equations_.compute(equations);
 }
 
 KrigingEstimate
@@ -104,9 +105,10 @@ KrigingSystem::estimate(const Eigen::VectorXd& values) const
   // Relative to one of them: a constant stays what it is.
   const double reference = values[0];
   const Eigen::VectorXd relative = (values.array() - reference).matrix();
-  const Eigen::VectorXd trend =
-      trend_equations_.solve(solved_terms_.transpose() * relative);
-  const Eigen::VectorXd dual = covariance_.solve(relative - terms_ * trend);
+  const Eigen::VectorXd right = solved_terms_.transpose() * relative;
+  const Eigen::VectorXd trend = trend_equations_.solve(right);
+  const Eigen::VectorXd residuals = relative - terms_ * trend;
+  const Eigen::VectorXd dual = covariance_.solve(residuals);
   KrigingEstimate estimate;
   estimate.value = reference + target_terms_.dot(trend) + to_target_.dot(dual);
   estimate.gradient.setZero();

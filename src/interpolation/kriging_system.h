@@ -2,11 +2,10 @@
 // The equations of kriging in one neighbourhood.
 #pragma once
 
+#include "common/eigen_solvers.h"
 #include "interpolation/variogram.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <Eigen/QR>
 
 namespace pcl_uvol::detail {
 

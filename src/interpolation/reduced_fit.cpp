@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "interpolation/reduced_fit.h"
 
+#include "common/eigen_solvers.h"
+
 #include <cmath>
 #include <limits>
 
@@ -46,7 +48,8 @@ ReducedFit::ReducedFit(const Eigen::MatrixX3d& offsets,
       break;
     if (degree > 1 && all_terms && decomposition.rank() < terms.cols())
       break;
-    Eigen::MatrixXd inverse = decomposition.pseudoInverse();
+    const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(count, count);
+    Eigen::MatrixXd inverse = decomposition.solve(identity);
     const double leverage = inverse.row(0).squaredNorm();
     degrees_.push_back({terms, std::move(inverse), leverage, freedom});
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "interpolation/slope_fit.h"
 
-#include <Eigen/QR>
+#include "common/eigen_solvers.h"
 
 #include <cmath>
 #include <limits>
@@ -64,7 +64,8 @@ SlopeFit::SlopeFit(const Eigen::MatrixXd& offsets, const Eigen::VectorXd& root_w
     factors.compute(terms);
     if (factors.rank() < terms.cols())
       break;
-    Eigen::MatrixXd inverse = factors.solve(Eigen::MatrixXd::Identity(count, count));
+    const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(count, count);
+    Eigen::MatrixXd inverse = factors.solve(identity);
     const double leverage = inverse.middleRows(1, dimensions_).squaredNorm();
     degrees_.push_back({terms, std::move(inverse), leverage, freedom});
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "interpolation/variogram.h"
 
+#include "common/eigen_solvers.h"
 #include "interpolation/field_model.h"
 #include "neighbors/nearest_finder.h"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "levelset/quadratic_residuals.h"
 
+#include "common/eigen_solvers.h"
 #include "levelset/quadratic_terms.h"
 
 #include <Eigen/QR>

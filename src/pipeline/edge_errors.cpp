@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/edge_errors.h"
 
+#include "common/eigen_solvers.h"
 #include "common/median.h"
 #include "isosurface/fit_judgement.h"
 
@@ -72,7 +73,8 @@ findStraying(const Eigen::Matrix3Xd& points, const Extents& extents)
   Eigen::MatrixXd matrix(points.cols(), terms);
   matrix << Eigen::VectorXd::Ones(points.cols()), x, y, x.cwiseProduct(x),
       x.cwiseProduct(y), y.cwiseProduct(y);
-  const Eigen::VectorXd paraboloid = matrix.colPivHouseholderQr().solve(heights);
+  const Eigen::VectorXd right = heights;
+  const Eigen::VectorXd paraboloid = matrix.colPivHouseholderQr().solve(right);
   const double free = static_cast<double>(points.cols() - terms);
   const double deviation = (matrix * paraboloid - heights).norm() / std::sqrt(free);
   return radius * std::max(deviation, std::abs(paraboloid[0]));
