@@ -2,19 +2,31 @@
 #include "io/cell_loader.h"
 
 #include "io/files.h"
+#include "io/hdf5_names.h"
 #include "io/unpacked_file.h"
 #include "io/vtk_library.h"
 #include <pcl_uvol/common/map_projection.h>
 
 namespace pcl_uvol {
 
+namespace {
+
+bool
+hasCells(const std::string& path, const LoadOptions& options)
+{
+  const io::FileFormat format = io::findFormat(path, options);
+  return (format == io::FileFormat::Vtk && io::getEnding(path) != ".vtp") ||
+         format == io::FileFormat::Plot3d ||
+         io::getEnding(io::splitHdf5Name(path).file) == ".vtkhdf";
+}
+
+} // namespace
+
 std::shared_ptr<const detail::SampleCells>
 loadCells(const std::string& path, const LoadOptions& options, const Dataset& samples)
 {
-  const bool is_read = io::findFormat(path, options) == io::FileFormat::Vtk &&
-                       io::getEnding(path) != ".vtp" && !io::isPacked(path) &&
-                       !io::isStandardStream(path) && !findMap(samples);
-  if (!is_read)
+  if (!hasCells(path, options) || io::isPacked(path) || io::isStandardStream(path) ||
+      findMap(samples))
     return nullptr;
   return io::reading(
       path, [&] { return io::vtkLibrary().readCells(path, options, samples); });

@@ -11,10 +11,11 @@
 
 namespace pcl_uvol {
 
-/** \brief Read the three-dimensional cells of a file of VTK, Exodus, EnSight or
- * OpenFOAM, or of a list of such files, without its fields.
+/** \brief Read the three-dimensional cells of a file of VTK, Exodus, EnSight, OpenFOAM
+ * or PLOT3D, or of a list of such files, without its fields.
  *
- * VTK's own readers do it, in a child process with limits.
+ * VTK's own readers do it, in a child process with limits; cells of PLOT3D and .vtkhdf
+ * are read by ours and have the samples at their corners.
  * \param options that the samples were read with
  * \param samples of the same file
  * \return null for a file of another format, a packed one, one without such cells, and

@@ -162,8 +162,15 @@ std::unique_ptr<RecordSource>
 openPlot3d(const std::string& path);
 
 /** \brief True for names as grids of PLOT3D have them: grid.p3d, combxyz.bin. */
-bool
+PCL_UVOL_EXPORTS bool
 isPlot3d(const std::string& path);
+
+/** \brief How many points the grids of such a file have along i, j and k: the samples
+ * are those of one grid after another, i fastest.
+ *
+ * \throws IOError */
+PCL_UVOL_EXPORTS std::vector<std::array<std::uint64_t, 3>>
+readPlot3dSizes(const std::string& path);
 
 /** \brief True for a binary snapshot of Gadget.
  * \throws IOError */

@@ -418,7 +418,7 @@ countCorners(const std::string& path, const std::vector<double>& ends)
   double begin = 0.0;
   for (const double end : ends) {
     if (!(end >= begin && end <= 0x1p53))
-      throwUnreadable(path, "its polygons do not follow one another");
+      throwUnreadable(path, "its cells do not follow one another");
     begin = end;
   }
   return static_cast<std::uint64_t>(begin);

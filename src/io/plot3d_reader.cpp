@@ -58,6 +58,7 @@ listLayouts()
 
 /** A grid, and where its numbers begin. */
 struct Grid {
+  std::array<std::uint64_t, 3> sizes{};
   std::uint64_t points = 0;
   std::uint64_t begin = 0;
 };
@@ -93,8 +94,8 @@ public:
     std::vector<Grid> grids(count);
     for (Grid& grid : grids) {
       grid.points = 1;
-      for (int axis = 0; axis < 3; ++axis) {
-        const std::uint64_t size = takeNumber();
+      for (std::uint64_t& size : grid.sizes) {
+        size = takeNumber();
         if (size == 0 || size > file_.getSize() / grid.points)
           return {};
         grid.points *= size;
@@ -173,6 +174,23 @@ private:
   std::size_t number_bytes_;
   std::vector<std::uint8_t> plane_;
 };
+
+/** The grids of a file, and its layout.
+ * \throws IOError where no layout fits */
+std::vector<Grid>
+findGrids(const std::string& path, const InputFile& file, Layout& layout)
+{
+  for (const Layout& possible : listLayouts()) {
+    auto grids = findGrids(file, possible);
+    if (grids.empty())
+      continue;
+    layout = possible;
+    return grids;
+  }
+  throwUnreadable(path,
+                  "it is no whole, binary grid of PLOT3D in three dimensions: no "
+                  "layout of these has its size");
+}
 
 /** A file of grids and the one of their solutions. */
 struct Plot3dFiles {
@@ -260,20 +278,22 @@ isPlot3d(const std::string& path)
                                        stem.compare(stem.size() - 3, 3, "xyz") == 0);
 }
 
+std::vector<std::array<std::uint64_t, 3>>
+readPlot3dSizes(const std::string& path)
+{
+  Layout layout;
+  std::vector<std::array<std::uint64_t, 3>> sizes;
+  for (const Grid& grid : findGrids(path, InputFile(path), layout))
+    sizes.push_back(grid.sizes);
+  return sizes;
+}
+
 std::unique_ptr<RecordSource>
 openPlot3d(const std::string& path)
 {
   auto files = std::make_shared<Plot3dFiles>();
   files->grid_file = std::make_shared<InputFile>(path);
-  for (const Layout& layout : listLayouts())
-    if (files->grids.empty()) {
-      files->layout = layout;
-      files->grids = findGrids(*files->grid_file, layout);
-    }
-  if (files->grids.empty())
-    throwUnreadable(path,
-                    "it is no whole, binary grid of PLOT3D in three dimensions: no "
-                    "layout of these has its size");
+  files->grids = findGrids(path, *files->grid_file, files->layout);
   const std::string solution = findSolutionFile(path);
   if (!solution.empty()) {
     files->solution_file = std::make_shared<InputFile>(solution);

@@ -46,7 +46,7 @@ struct VtkLibrary {
    * \throws IOError if it is not there */
   bool (*holdsImage)(const std::string& path);
 
-  /** \brief The solid cells of a file of VTK, see loadCells(); null if there are none.
+  /** \brief The solid cells of a file, see loadCells(); null if there are none.
    * \throws IOError */
   std::shared_ptr<const detail::SampleCells> (*readCells)(const std::string& path,
                                                           const LoadOptions& options,

@@ -7,6 +7,7 @@
 #include "io/mesh_readers.h"
 #include "io/position_tables.h"
 #include "io_vtk/hdf5_group.h"
+#include "io_vtk/sample_topology.h"
 
 #include <pcl/PCLPointField.h>
 
@@ -161,6 +162,10 @@ public:
   openImage();
   std::vector<Triangle>
   readTriangles() const;
+  void
+  readCells(SampleTopology& topology) const;
+  Lattice
+  readLattice() const;
 
 private:
   std::string
@@ -170,14 +175,14 @@ private:
   }
   std::vector<double>
   readNumbers(const std::string& name, std::uint64_t first, std::uint64_t count) const;
+  std::vector<double>
+  readEnds(const std::string& name, std::uint64_t first, std::uint64_t cells) const;
   std::uint64_t
   firstCount(const std::string& name) const;
   std::uint64_t
   readRows(const std::string& name) const;
   Step
   findStep() const;
-  Lattice
-  readLattice() const;
   void
   addColumn(const std::string& name,
             const Hdf5Shape& shape,
@@ -232,6 +237,19 @@ VtkHdfReader::readNumbers(const std::string& name,
     count -= now;
   }
   return numbers;
+}
+
+/** Where the cells of a part end among its corners. */
+std::vector<double>
+VtkHdfReader::readEnds(const std::string& name,
+                       std::uint64_t first,
+                       std::uint64_t cells) const
+{
+  std::vector<double> ends = readNumbers(name, first, cells + 1);
+  if (ends[0] != 0.0)
+    throwUnreadable(path_, "its cells do not begin with their first corner");
+  ends.erase(ends.begin());
+  return ends;
 }
 
 /** What a table of the first time begins with; 0 where there is none. */
@@ -454,11 +472,8 @@ VtkHdfReader::readTriangles() const
     if (!(polygons[part] >= 0.0 && polygons[part] < 0x1p53))
       throwUnreadable(path_, "it is damaged: a count of its polygons is negative");
     const auto count = static_cast<std::uint64_t>(polygons[part]);
-    std::vector<double> ends = readNumbers("Polygons/Offsets", end, count + 1);
+    const std::vector<double> ends = readEnds("Polygons/Offsets", end, count);
     end += count + 1;
-    if (ends[0] != 0.0)
-      throwUnreadable(path_, "its polygons do not begin with their first corner");
-    ends.erase(ends.begin());
     const std::uint64_t corners = countCorners(path_, ends);
     addFans(path_,
             ends,
@@ -470,6 +485,48 @@ VtkHdfReader::readTriangles() const
     point += static_cast<std::uint64_t>(points[part]);
   }
   return triangles;
+}
+
+void
+VtkHdfReader::readCells(SampleTopology& topology) const
+{
+  const Step step = findStep();
+  const auto counts = [&](const char* name) {
+    return readNumbers(name, step.first_part, step.parts);
+  };
+  const auto points = counts("NumberOfPoints"), cells = counts("NumberOfCells"),
+             corners = counts("NumberOfConnectivityIds");
+  std::uint64_t cell = firstCount("Steps/CellOffsets"),
+                corner = firstCount("Steps/ConnectivityIdOffsets"), point = 0;
+  std::uint64_t offset = cell + step.first_part; // each part has one more than cells
+  for (std::size_t part = 0; part < points.size(); ++part) {
+    for (const double count : {points[part], cells[part], corners[part]})
+      if (!(count >= 0.0 && count <= UINT32_MAX))
+        throwUnreadable(path_, "it is damaged: a count of its parts is none");
+    const auto cell_count = static_cast<std::uint64_t>(cells[part]),
+               corner_count = static_cast<std::uint64_t>(corners[part]);
+    const std::vector<double> ends = readEnds("Offsets", offset, cell_count);
+    if (countCorners(path_, ends) != corner_count)
+      throwUnreadable(path_, "it is damaged: its cells do not end with its corners");
+    const std::uint64_t before = topology.corners.size();
+    for (const double end : ends)
+      topology.ends.push_back(before + static_cast<std::uint64_t>(end));
+    for (const double type : readNumbers("Types", cell, cell_count)) {
+      if (!(type >= 0.0 && type <= UINT8_MAX))
+        throwUnreadable(path_, "it is damaged: a type of its cells is none");
+      topology.types.push_back(static_cast<unsigned char>(type));
+    }
+    for (const double own : readNumbers("Connectivity", corner, corner_count)) {
+      if (!(own >= 0.0 && own < points[part]))
+        throwUnreadable(path_, "it is damaged: a cell names a point that is not there");
+      topology.corners.push_back(point + static_cast<std::uint64_t>(own));
+    }
+    cell += cell_count;
+    offset += cell_count + 1;
+    corner += corner_count;
+    point += static_cast<std::uint64_t>(points[part]);
+  }
+  topology.points = point;
 }
 
 bool
@@ -516,6 +573,25 @@ readVtkHdfTriangles(const std::string& path)
   if (file.readText(vtkhdf_group, "Type") != "PolyData")
     return {};
   return VtkHdfReader(file, vtkhdf_group).readTriangles();
+}
+
+SampleTopology
+readVtkHdfTopology(const std::string& path)
+{
+  const Hdf5Name name = splitHdf5Name(path);
+  const Hdf5File file(name.file);
+  const std::string group = name.inside.empty() ? vtkhdf_group : name.inside;
+  const std::string type = file.readText(group, "Type");
+  const VtkHdfReader reader(file, group);
+  SampleTopology topology;
+  if (type == "ImageData") {
+    const Lattice lattice = reader.readLattice();
+    topology.lattices.push_back(lattice.sizes);
+    topology.points = lattice.countPoints();
+  }
+  if (type == "UnstructuredGrid")
+    reader.readCells(topology);
+  return topology;
 }
 
 } // namespace io

@@ -2,6 +2,7 @@
 // Bytes as files. A reader either gives what its own writers and the stream of points
 // give again, or refuses in one sentence.
 #include "common/scalar_field.h"
+#include "io/cell_loader.h"
 #include "io/memory_need.h"
 #include "io/point_stream.h"
 #include "io_vtk/vtk_readers.h"
@@ -151,6 +152,9 @@ readPoints(const std::string& path, bool has_stream)
     return;
   requireWhole(dataset);
   requireForecast(path, dataset);
+  const std::string ending = path.substr(std::min(path.size(), path.rfind('.')));
+  if (ending == ".vtkhdf" || ending == ".p3d") // cells of others are read elsewhere
+    refusalOf<IOError>([&] { pcl_uvol::loadCells(path, {}, dataset); }, path);
   constexpr std::size_t most_bytes = 1 << 16, most_fields = 100; // for speed
   if (dataset.cloud.data.size() < most_bytes &&
       dataset.cloud.fields.size() < most_fields)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cells of files that say where their data are: every kind of mesh and file, holes,
 // hidden cells, samples without a value, and what has no cells.
+#include "hdf5_writer.h"
 #include "io/cell_loader.h"
 #include "support/environment.h"
 #include <pcl_uvol/common/cloud_view.h>
@@ -29,7 +30,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <fstream>
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace test_cell_loader {
 
@@ -409,6 +414,160 @@ TEST_F(CellLoader, DamagedCellsAreAnError)
   writeFile(folder_ / "pipe.vtu", text);
   EXPECT_THROW(load("pipe.vtu"), pcl_uvol::IOError);
   EXPECT_EQ(samples_.cloud.width, 210u); // the points are there all the same
+}
+
+/** Grids of doubles as C writes them: their number, sizes, coordinates by axis, and
+ * which points count. */
+void
+writePlot3d(const std::string& path,
+            const std::vector<vtkSmartPointer<vtkStructuredGrid>>& grids,
+            const std::vector<std::int32_t>& blanking = {})
+{
+  std::ofstream file(path, std::ios::binary);
+  const auto put = [&](auto number) {
+    file.write(reinterpret_cast<const char*>(&number), sizeof(number));
+  };
+  put(static_cast<std::int32_t>(grids.size()));
+  for (std::size_t i = 0; i < grids.size(); ++i)
+    for (const std::int32_t size : nodes)
+      put(size);
+  for (const auto& grid : grids) {
+    for (int axis = 0; axis < 3; ++axis)
+      for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
+        put(grid->GetPoint(i)[axis]);
+    for (const std::int32_t counts : blanking)
+      put(counts);
+  }
+}
+
+TEST_F(CellLoader, KnowsTheInsideOfPlot3d)
+{
+  const auto pipe = makePipe(), other = makePipe(1.0, 10.0);
+  writePlot3d(folder_ / "pipe.p3d", {pipe, other});
+  load("pipe.p3d");
+  ASSERT_TRUE(cells_);
+  EXPECT_EQ(cells_->size(), 2u * 6 * 5 * 4);
+  EXPECT_GE(countInside(insideCells(*pipe, 500)), 480u);
+  EXPECT_GE(countInside(insideCells(*other, 500)), 480u);
+  EXPECT_EQ(countInside(outsideOfPipe(1.0, 0.0)), 0u);
+  EXPECT_EQ(countInside(outsideOfPipe(1.0, 10.0)), 0u);
+  // A point that is counted out takes its eight cells with it.
+  std::vector<std::int32_t> blanking(7 * 6 * 5, 1);
+  blanking[2 + 7 * (2 + 6 * 2)] = 0;
+  writePlot3d(folder_ / "holed.p3d", {pipe}, blanking);
+  load("holed.p3d");
+  ASSERT_TRUE(cells_);
+  EXPECT_EQ(cells_->size(), 6u * 5 * 4 - 8);
+}
+
+/** What is wrong with a file. */
+struct Damage {
+  double corner = 0.0, offset = 0.0, type = 0.0; ///< added to the numbers of the table
+};
+
+/** A mesh in two parts, the second one the first one moved. */
+void
+writeVtkHdf(const std::string& path,
+            vtkUnstructuredGrid& mesh,
+            const Damage& damage = {})
+{
+  const auto points = static_cast<std::size_t>(mesh.GetNumberOfPoints());
+  const auto cells = static_cast<std::size_t>(mesh.GetNumberOfCells());
+  std::vector<double> places, offsets, corners, types;
+  for (int part = 0; part < 2; ++part) {
+    for (std::size_t i = 0; i < points; ++i)
+      for (int axis = 0; axis < 3; ++axis)
+        places.push_back(mesh.GetPoint(static_cast<vtkIdType>(i))[axis] + 10.0 * part);
+    const std::size_t before = corners.size();
+    offsets.push_back(damage.offset);
+    for (std::size_t i = 0; i < cells; ++i) {
+      const auto cell = static_cast<vtkIdType>(i);
+      vtkIdList& ids = *mesh.GetCell(cell)->GetPointIds();
+      for (vtkIdType j = 0; j < ids.GetNumberOfIds(); ++j)
+        corners.push_back(static_cast<double>(ids.GetId(j)) + damage.corner);
+      offsets.push_back(static_cast<double>(corners.size() - before));
+      types.push_back(mesh.GetCellType(cell) + damage.type);
+    }
+  }
+  const auto of_parts = [](std::size_t count) {
+    return std::vector<double>(2, static_cast<double>(count));
+  };
+  Hdf5Writer file(path);
+  file.group("/VTKHDF");
+  file.text("/VTKHDF", "Type", "UnstructuredGrid");
+  file.attribute("/VTKHDF", "Version", {1, 0});
+  file.table("/VTKHDF/NumberOfPoints", H5T_STD_I64LE, 1, of_parts(points));
+  file.table("/VTKHDF/NumberOfCells", H5T_STD_I64LE, 1, of_parts(cells));
+  file.table("/VTKHDF/NumberOfConnectivityIds",
+             H5T_STD_I64LE,
+             1,
+             of_parts(corners.size() / 2));
+  file.table("/VTKHDF/Points", H5T_IEEE_F64LE, 3, places);
+  file.table("/VTKHDF/Offsets", H5T_STD_I64LE, 1, offsets);
+  file.table("/VTKHDF/Connectivity", H5T_STD_I64LE, 1, corners);
+  file.table("/VTKHDF/Types", H5T_STD_U8LE, 1, types);
+  file.group("/VTKHDF/PointData");
+  file.table("/VTKHDF/PointData/f", H5T_IEEE_F64LE, 1, std::vector<double>(2 * points));
+}
+
+TEST_F(CellLoader, KnowsTheInsideOfVtkHdf)
+{
+  const auto pipe = makePipe(), other = makePipe(1.0, 10.0);
+  for (const auto& mesh : {toUnstructured(*pipe), toTetrahedra(*pipe)}) {
+    writeVtkHdf(folder_ / "pipe.vtkhdf", *mesh);
+    load("pipe.vtkhdf");
+    ASSERT_TRUE(cells_);
+    EXPECT_EQ(cells_->size(), 2u * static_cast<std::size_t>(mesh->GetNumberOfCells()));
+    EXPECT_GE(countInside(insideCells(*pipe, 500)), 480u);
+    EXPECT_GE(countInside(insideCells(*other, 500)), 480u);
+    EXPECT_EQ(countInside(outsideOfPipe(1.0, 0.0)), 0u);
+    EXPECT_EQ(countInside(outsideOfPipe(1.0, 10.0)), 0u);
+  }
+  // Corners that are not there, ends that do not fit, types of other numbers of
+  // corners.
+  const auto mesh = toUnstructured(*pipe);
+  for (const Damage& damage : {Damage{1000.0},
+                               Damage{-1.0},
+                               Damage{0.0, 1.0},
+                               Damage{0.0, 0.0, 1.0},
+                               Damage{0.0, 0.0, 300.0},
+                               Damage{0.0, 0.0, -20.0}}) {
+    writeVtkHdf(folder_ / "pipe.vtkhdf", *mesh, damage);
+    EXPECT_THROW(load("pipe.vtkhdf"), pcl_uvol::IOError);
+  }
+  // Cells whose faces the file does not tell.
+  writeVtkHdf(
+      folder_ / "pipe.vtkhdf", *mesh, {0.0, 0.0, VTK_POLYHEDRON - VTK_HEXAHEDRON});
+  load("pipe.vtkhdf");
+  EXPECT_FALSE(cells_);
+  // Samples that are not all of the file's.
+  writeVtkHdf(folder_ / "pipe.vtkhdf", *mesh);
+  load("pipe.vtkhdf");
+  ASSERT_TRUE(cells_);
+  --samples_.cloud.width;
+  EXPECT_FALSE(pcl_uvol::loadCells(folder_ / "pipe.vtkhdf", {}, samples_));
+}
+
+TEST_F(CellLoader, KnowsTheInsideOfImagesInVtkHdf)
+{
+  {
+    Hdf5Writer file(folder_ / "image.vtkhdf");
+    file.group("/VTKHDF");
+    file.text("/VTKHDF", "Type", "ImageData");
+    file.attribute("/VTKHDF", "WholeExtent", {1, 4, 0, 4, 0, 5});
+    file.attribute("/VTKHDF", "Origin", {10, 20, 30});
+    file.attribute("/VTKHDF", "Spacing", {0.5, 1, 2});
+    file.group("/VTKHDF/PointData");
+    file.block("/VTKHDF/PointData/T",
+               H5T_IEEE_F32LE,
+               {6, 5, 4},
+               std::vector<double>(6 * 5 * 4));
+  }
+  load("image.vtkhdf");
+  ASSERT_TRUE(cells_);
+  EXPECT_EQ(cells_->size(), 3u * 4 * 5);
+  EXPECT_EQ(countInside({{10.6, 20.1, 30.1}, {11.9, 23.9, 39.9}}), 2u);
+  EXPECT_EQ(countInside({{10.4, 20.1, 30.1}, {12.1, 23.9, 39.9}}), 0u);
 }
 
 } // namespace test_cell_loader
