@@ -133,8 +133,27 @@ MeshColumns::crossingOf(const Triangle& triangle, const Eigen::Vector3d& place) 
   const Eigen::Vector3d a = places_[triangle[0]] - place,
                         b = places_[triangle[1]] - place,
                         c = places_[triangle[2]] - place;
+  // A place on the triangle is taken to be a little above it.
   const double height = a.dot(b.cross(c));
-  return (height > 0.0) == (turns > 0) ? turns : 0;
+  return (turns > 0 ? height > 0.0 : height < 0.0) ? turns : 0;
+}
+
+/** Bring a place on a face of the mesh's box into the box: caps lie there, where the
+ * outermost samples of a lattice are, which they enclose. Of other meshes only the
+ * outermost vertices lie there. */
+Eigen::Vector3d
+MeshColumns::enterCaps(const Eigen::Vector3d& place) const
+{
+  constexpr double inwards = 1e-9; // in sides of the box
+  Eigen::Vector3d inner = place;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double step = inwards * (high_[axis] - low_[axis]);
+    if (place[axis] == low_[axis])
+      inner[axis] += step;
+    else if (place[axis] == high_[axis])
+      inner[axis] -= step;
+  }
+  return inner;
 }
 
 void
@@ -160,9 +179,10 @@ MeshColumns::findAround(const Eigen::Vector3d& place, std::vector<Winding>& foun
   found.clear();
   if (!place.allFinite())
     return;
-  addCrossings(place, found);
+  const Eigen::Vector3d inner = enterCaps(place);
+  addCrossings(inner, found);
   if (closure_ != nullptr)
-    closure_->addTurns(places_, place, found);
+    closure_->addTurns(places_, inner, found);
   found.erase(std::remove_if(found.begin(),
                              found.end(),
                              [](const Winding& winding) { return winding.turns == 0; }),

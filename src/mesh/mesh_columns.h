@@ -73,6 +73,9 @@ private:
   int
   crossingOf(const Triangle& triangle, const Eigen::Vector3d& place) const;
 
+  Eigen::Vector3d
+  enterCaps(const Eigen::Vector3d& place) const;
+
   void
   addCrossings(const Eigen::Vector3d& place, std::vector<Winding>& found) const;
 

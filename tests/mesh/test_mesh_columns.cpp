@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 namespace test_mesh_columns {
 
@@ -42,6 +43,38 @@ TEST(MeshColumns, TellInsideFromOutsideOnGridPlanesToo)
         if (x != 0 && x != 4 && y != 0 && y != 4) {
           const bool is_inside = x > 0 && x < 4 && y > 0 && y < 4 && z > 0 && z < 4;
           EXPECT_EQ(is_inside ? 1 : 0, turns(of_box)) << place.transpose();
+        }
+      }
+}
+
+/** As the outermost samples of a lattice lie on caps. */
+TEST(MeshColumns, PlacesOnTheFacesOfTheBoxAreInside)
+{
+  MeasuredShape box = makeBox({4.0, 4.0, 4.0});
+  MeasuredShape hole = makeBox({2.0, 2.0, 2.0});
+  hole.transform(Eigen::Matrix3d::Identity(), {1.0, 1.0, 1.0});
+  for (Triangle& triangle : hole.triangles)
+    std::swap(triangle[0], triangle[1]);
+  box.append(hole);
+  const detail::PieceList list = detail::findPieces(box.triangles, box.places.size());
+  const detail::MeshColumns columns(box.places, box.triangles, list.of_vertex);
+  std::vector<detail::Winding> found;
+  for (int x = 0; x <= 4; ++x)
+    for (int y = 0; y <= 4; ++y)
+      for (int z = 0; z <= 4; ++z) {
+        columns.findAround(Eigen::Vector3d(x, y, z), found);
+        int turns = 0;
+        for (const detail::Winding& winding : found)
+          turns += winding.turns;
+        const auto is_between = [](int at) { return at > 0 && at < 4; };
+        if (is_between(x) && is_between(y) && is_between(z)) {
+          EXPECT_TRUE(turns == 0 || turns == 1); // on the hole, or in it
+          if (x == 2 && y == 2 && z == 2) {
+            EXPECT_EQ(0, turns);
+          }
+        }
+        else {
+          EXPECT_EQ(1, turns) << x << ' ' << y << ' ' << z;
         }
       }
 }
