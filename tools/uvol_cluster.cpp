@@ -248,36 +248,27 @@ countLabels(const std::vector<std::int32_t>& labels, Report& report)
   report.count("in_no_cluster", static_cast<std::uint64_t>(without));
 }
 
-/** What the tool holds beside the points; grids of surfaces are looked at when their
- * size is known. */
-uvol_tools::MemoryGuard::Work
+/** What the tool holds beside the points: labels and indices, and at its end the points
+ * with two fields more; grids of surfaces are looked at when their size is known. */
+uvol_tools::MemoryGuard::Bytes
 forecastMemory(const Arguments& arguments)
 {
-  return [&](double points, double step, pcl_uvol::MemoryForecast& forecast) {
-    constexpr double number_bytes = 4.0; // of an index, a label, a probability
-    // setField: the points packed anew, and with the field behind them
-    const auto set_field = [&] {
-      forecast.run({(2.0 * step + number_bytes) * points, number_bytes * points});
-      step += number_bytes;
-    };
-    arguments.attributes.addFieldsNeed(points, step, forecast);
-    forecast.hold(number_bytes * points); // labels
-    if (arguments.attributes.areGiven()) {
-      pcl_uvol::MemoryNeed need = pcl_uvol::clusteringNeed(
-          points,
-          static_cast<double>(arguments.attributes.required().size()),
-          static_cast<double>(arguments.k));
-      need.peak += number_bytes * points; // indices of all
-      forecast.run(need);
-      set_field();
-      set_field();
-      forecast.release(need.kept);
-    }
-    if (arguments.surface == "membership") {
-      forecast.hold((number_bytes + step) * points);
-      set_field();
-      forecast.run(pcl_uvol::isosurfaceNeed(points, {}));
-    }
+  return [&](double points, double step) {
+    constexpr double number_bytes = 4.0;
+    double working = (2.0 * step + 4.0 * number_bytes) * points;
+    if (arguments.attributes.areGiven())
+      working =
+          std::max({working,
+                    arguments.attributes.getDerivativeBytes(points),
+                    pcl_uvol::clusteringBytes(
+                        points,
+                        static_cast<double>(arguments.attributes.required().size()),
+                        static_cast<double>(arguments.k))});
+    if (arguments.surface == "membership")
+      working = std::max(working,
+                         (number_bytes + step) * points +
+                             pcl_uvol::isosurfaceBytes(points, 1));
+    return 2.0 * number_bytes * points + working;
   };
 }
 

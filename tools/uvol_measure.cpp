@@ -233,10 +233,9 @@ extractSurface(const Options& options,
     arguments.parameters.periodic = {sides[0], sides[1], sides[2]};
     arguments.parameters.periodic_mesh = pcl_uvol::PeriodicMesh::Weld;
   }
-  memory.checkCloud(
-      *samples, [&](double points, double step, pcl_uvol::MemoryForecast& forecast) {
-        pcl_uvol::addMemoryNeed(arguments.parameters, points, step, {}, 0.0, forecast);
-      });
+  memory.checkCloud(*samples, [&](double points, double step) {
+    return pcl_uvol::pipelineBytes(points, step, arguments.parameters);
+  });
   pcl_uvol::IsosurfacePipeline pipeline;
   pipeline.setInput(samples);
   pipeline.setParameters(arguments.parameters);

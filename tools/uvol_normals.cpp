@@ -48,18 +48,15 @@ estimateNormals(const pcl::PCLPointCloud2& cloud,
   return result;
 }
 
-/** What the tool holds beside the points. */
-uvol_tools::MemoryGuard::Work
+/** What the tool holds beside the points: while it estimates, then a cloud of normals,
+ * the same as bytes, and the output. */
+uvol_tools::MemoryGuard::Bytes
 forecastMemory(std::uint64_t k)
 {
-  return [k](double points, double step, pcl_uvol::MemoryForecast& forecast) {
-    forecast.hold(sizeof(std::uint32_t) * points); // indices of all
-    forecast.run(pcl_uvol::surfaceNormalsNeed(points, static_cast<double>(k)));
-    // A cloud, the same as bytes, and the output, a normal and a curvature
-    // longer than the input.
-    forecast.hold((2.0 * sizeof(pcl::PointNormal) + sizeof(IsoEdge) + step +
-                   sizeof(pcl_uvol::SurfaceNormal)) *
-                  points);
+  return [k](double points, double step) {
+    constexpr double output_bytes = 176.0;
+    return std::max(pcl_uvol::surfaceNormalsBytes(points, static_cast<double>(k)),
+                    (output_bytes + step) * points);
   };
 }
 
@@ -70,7 +67,7 @@ run(int argc, char** argv)
   std::vector<double> view_point;
   uvol_tools::ScaleOption scale;
   uvol_tools::InputOptions reading;
-  std::uint64_t k = 30;
+  pcl_uvol::SurfaceNormalParameters parameters;
   bool ascii = false;
   uvol_tools::Options options(
       "uvol_normals",
@@ -83,7 +80,7 @@ run(int argc, char** argv)
   options.group("Input");
   reading.declare(options);
   options.group("Normals");
-  options.integer("k", k, 2, 10000, "nearest neighbours besides the point");
+  options.members(parameters, {"k"});
   options.numbers("viewpoint",
                   "x,y,z",
                   3,
@@ -99,7 +96,7 @@ run(int argc, char** argv)
   const std::string& where = reading.getWhere();
   pcl_uvol::checkSavePath(output);
   uvol_tools::MemoryGuard memory("Estimating normals");
-  memory.checkFile(input, where.empty() ? forecastMemory(k) : nullptr, load);
+  memory.checkFile(input, where.empty() ? forecastMemory(parameters.k) : nullptr, load);
 
   Report report;
   uvol_tools::ProgressBar bar;
@@ -107,9 +104,7 @@ run(int argc, char** argv)
   const pcl_uvol::Dataset dataset =
       uvol_tools::loadPoints(input, report, load, where, options.threads());
   pcl_uvol::checkSavePath(output, dataset.cloud.fields);
-  memory.checkCloud(dataset, forecastMemory(k));
-  pcl_uvol::SurfaceNormalParameters parameters;
-  parameters.k = k;
+  memory.checkCloud(dataset, forecastMemory(parameters.k));
   uvol_tools::Facts facts = {{"input", input}, {"output", output}};
   uvol_tools::Facts of_scale;
   const auto stretch = scale.resolve(

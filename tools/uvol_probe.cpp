@@ -169,38 +169,35 @@ findSampleOptions(const Arguments& arguments, const pcl_uvol::LoadOptions& all)
 }
 
 /** What the tool holds beside the samples. */
-uvol_tools::MemoryGuard::Work
+uvol_tools::MemoryGuard::Bytes
 forecastMemory(const Arguments& arguments,
                double fields,
                const QuerySize& queries,
                double cell_bytes = 0.0)
 {
-  return [&arguments, fields, queries, cell_bytes](
-             double points, double point_step, pcl_uvol::MemoryForecast& forecast) {
-    arguments.model.addFieldsNeed(points, point_step, forecast);
+  return [&arguments, fields, queries, cell_bytes](double points, double) {
     using pcl_uvol::QueryShape;
     const Kind kind = arguments.queries.getKind();
     const QueryShape shape = kind == Kind::Line    ? QueryShape::Line
                              : kind == Kind::Plane ? QueryShape::Plane
                                                    : QueryShape::Space;
-    forecast.hold(cell_bytes);
-    forecast.hold(sizeof(int) * points); // indices of all
     const InterpolationParameters& parameters = arguments.model.getParameters();
+    double working = arguments.model.getDerivativeBytes(points);
     if (arguments.model.hasValidation())
-      forecast.run({pcl_uvol::interpolationNeed(
-                        points, fields, parameters, points / 2.0, QueryShape::Space)
-                        .peak,
-                    0.0});
-    if (kind == Kind::None)
-      return;
-    if (queries.point_step > 0.0) // places and distances, and the points
-      forecast.hold((4.0 * sizeof(double) + queries.point_step) * queries.count);
-    forecast.run(
-        pcl_uvol::interpolationNeed(points, fields, parameters, queries.count, shape));
-    // Points with the answers, while they are written as well.
-    if (queries.point_step > 0.0)
-      forecast.hold((queries.point_step + 2.0 * sizeof(double) * fields + 4.0) *
-                    queries.count);
+      working =
+          std::max(working,
+                   pcl_uvol::interpolationBytes(
+                       points, fields, parameters, points / 2.0, QueryShape::Space));
+    if (kind != Kind::None)
+      working = std::max(working,
+                         pcl_uvol::interpolationBytes(
+                             points, fields, parameters, queries.count, shape));
+    // Places and distances, and points with their answers as they are written.
+    const double query_bytes =
+        queries.point_step > 0.0
+            ? 2.0 * queries.point_step + (4.0 + 2.0 * fields) * sizeof(double) + 4.0
+            : 0.0;
+    return sizeof(int) * points + cell_bytes + working + query_bytes * queries.count;
   };
 }
 

@@ -91,13 +91,11 @@ run(int argc, char** argv, uvol_tools::SeriesStep* step)
   else
     uvol_tools::checkPicturePath(output, true);
 
-  const auto forecastMemory = [&job =
-                                   *job](double points, double size, auto& forecast) {
-    job.look.addColorNeed(points, size, forecast);
-    if (job.is_page) // footprints of all points, as at worst in a picture
-      forecast.run(pcl_uvol::splatsNeed(points, 0.0, true));
-    else
-      job.look.addMemoryNeed(points, 1, forecast);
+  const auto forecastMemory = [&look = job->look, is_page = job->is_page](double points,
+                                                                          double) {
+    return std::max(
+        look.hasColorOfSamples() ? uvol_tools::derivative_bytes * points : 0.0,
+        is_page ? pcl_uvol::footprintsBytes(points) : look.findBytes(points, 1));
   };
   memory.checkFile(input, forecastMemory);
   pcl_uvol::Dataset dataset = uvol_tools::loadPoints(input, report);

@@ -55,20 +55,13 @@ describePlace(const std::array<double, 3>& place)
   return text.str();
 }
 
-/** What the tool holds beside the points.
- * \param part of them that have a splat */
-uvol_tools::MemoryGuard::Work
-forecastMemory(double part, bool has_normals)
+/** What the tool holds beside the points: splats as bytes, and with the other fields.
+ */
+double
+forecastMemory(double points, double step)
 {
-  return [=](double points, double step, pcl_uvol::MemoryForecast& forecast) {
-    const double splats = part * points;
-    forecast.hold(sizeof(std::uint32_t) * points); // indices of all
-    forecast.run(pcl_uvol::splatsNeed(points, splats, has_normals));
-    // as bytes, and with the other fields
-    forecast.hold(
-        (2.0 * sizeof(pcl_uvol::PointSplat) + sizeof(pcl_uvol::IsoEdge) + step) *
-        splats);
-  };
+  return pcl_uvol::splatsBytes(points) +
+         (sizeof(pcl_uvol::PointSplat) + sizeof(pcl_uvol::IsoEdge) + step) * points;
 }
 
 int
@@ -111,18 +104,14 @@ run(int argc, char** argv)
   const pcl_uvol::SplatParameters parameters = splat_options.parameters(options);
   pcl_uvol::checkSavePath(output);
   uvol_tools::MemoryGuard memory("Making splats");
-  memory.checkFile(input, forecastMemory(0.0, true));
+  memory.checkFile(input, forecastMemory);
 
   Report report;
   uvol_tools::ProgressBar bar;
   report.progress = std::ref(bar);
   const pcl_uvol::Dataset dataset = uvol_tools::loadPoints(input, report);
   pcl_uvol::checkSavePath(output, dataset.cloud.fields);
-  const pcl_uvol::CloudView view = pcl_uvol::viewOf(dataset.cloud);
-  memory.checkCloud(
-      dataset,
-      forecastMemory(pcl_uvol::estimateSplats(view, parameters, options.threads()),
-                     pcl_uvol::findField(dataset.cloud.fields, "normal_x") != nullptr));
+  memory.checkCloud(dataset, forecastMemory);
   pcl_uvol::Dataset result = pcl_uvol::withoutCloud(dataset);
   result.cloud = generateSplats(dataset.cloud, parameters, options.threads(), report);
   if (is_gaussian) {

@@ -2,8 +2,13 @@
 """The reference page of the Python module: signatures from its stub, docstrings from its sources. It is read as
 text, so that nothing has to be built."""
 import ast
+import pathlib
 import re
+import sys
 import textwrap
+
+sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "python/pcl_uvol"))
+from _described import fill  # noqa: E402
 
 INTRODUCTION = """# The Python module
 
@@ -14,14 +19,39 @@ default that the docstring tells. [Python](../guide/python.md) explains how the 
 SHOWN = ("__init__", "__call__", "__getitem__")  # of the names with underscores
 
 
+HEADERS = {"describe_level_set": "levelset/level_set_parameters.h", "describe_normals": "surface/surface_normals.h"}
+
+
+def read_members(folder, node):
+    """Names, types and help of the parameters that a function takes by `described`: from the header that lists them, and
+    the stub."""
+    calls = [decorator.args[0].func.attr for decorator in node.decorator_list
+             if isinstance(decorator, ast.Call) and getattr(decorator.func, "id", "") == "described"]
+    if not calls:
+        return []
+    header = (folder.parent.parent / "include/pcl_uvol" / HEADERS[calls[0]]).read_text()
+    stub = next(item for item in ast.parse((folder / "__init__.pyi").read_text()).body
+                if getattr(item, "name", "") == node.name)
+    types = {argument.arg: ast.unparse(argument.annotation) for argument in stub.args.kwonlyargs}
+    texts = re.findall(r'Member\{\s*"(\w+)",\s*&Own::\w+,\s*\{((?:\s*"[^"]*")+)', header)
+    return [{"name": name, "type": types[name], "help": "".join(re.findall(r'"([^"]*)"', text))} for name, text in texts]
+
+
+def read_docstring(folder, node):
+    text = ast.get_docstring(node)
+    members = read_members(folder, node)
+    return fill(text, members) if members else text
+
+
 def read_docstrings(folder):
     """Docstrings by name, those of methods by Class.name, inherited ones as well."""
     found, classes = {}, {}
     for path in sorted(folder.glob("*.py")):
         for node in ast.parse(path.read_text()).body:
-            if isinstance(node, (ast.FunctionDef, ast.ClassDef)):
-                found[node.name] = ast.get_docstring(node)
+            if isinstance(node, ast.FunctionDef):
+                found[node.name] = read_docstring(folder, node)
             if isinstance(node, ast.ClassDef):
+                found[node.name] = ast.get_docstring(node)
                 classes[node.name] = node
     for name, node in classes.items():
         bases = [classes[base.id] for base in node.bases if getattr(base, "id", None) in classes]

@@ -4,6 +4,7 @@
 import numpy as np
 
 from . import _arrays, _core, _parameters, _report
+from ._described import described
 from ._pictures import Picture, pixel_sides
 from ._progress import listening
 from ._samples import Samples, as_samples
@@ -19,10 +20,9 @@ def _run(function, samples, parameters, threads, progress, *more):
 
 
 @_parameters.with_proposals
-def level_set(points, fields=None, *, iso, field="", mu=None, scale=(1.0, 1.0, 1.0), rotate=None, start=None,
-              outside="lower", snapshots=0, periodic=None, scheme="quadratic", flow="relative", bound="stencil",
-              integration="asynchronous", reinitialization="distance", k=26, max_steps=400, tolerance=0.002,
-              band_width=5.0, threads=0, progress=None):
+@described(_core.describe_level_set())
+def level_set(points, fields=None, *, iso, field="", scale=(1.0, 1.0, 1.0), rotate=None, start=None, snapshots=0,
+              periodic=None, threads=0, progress=None, **parameters):
     """Smooth a noisy or unevenly sampled field about an isosurface (thesis, chapter 3).
 
     Parameters
@@ -33,39 +33,17 @@ def level_set(points, fields=None, *, iso, field="", mu=None, scale=(1.0, 1.0, 1
         Isovalue, in units of the field.
     field : str
         As that of `isosurface`.
-    mu : float, optional
-        Weight of the data against smoothness, in [0, 1]; by default from the values.
     scale, rotate
         As those of `isosurface`.
     start : str or dict, optional
         A field in units of length, or a shape: {"kind": "sphere", "first": centre,
         "radius": r}, {"kind": "box", "first": low, "second": high}, {"kind": "plane",
         "first": point, "second": normal}. By default the values themselves.
-    outside : {"lower", "higher"}
-        Of the shapes.
     snapshots : int
         Keep the surface every so many steps, as `snapshots` of the result; 0: never.
     periodic : sequence of 3 floats, or "header", optional
         As that of `isosurface`; without `rotate`.
-    scheme : {"quadratic", "linear"}
-        Of the fits that derivatives come from.
-    flow : {"relative", "mean"}
-        What smooths: the mean curvature less its mean over the surroundings, which keeps
-        radii, or the mean curvature (thesis 3.7).
-    bound : {"stencil", "cfl"}
-        Of time steps: by the weights of the neighbours, or by the nearest one (3.5.1).
-    integration : {"asynchronous", "synchronous"}
-        Samples take steps of their own (3.5.2), or all the smallest one.
-    reinitialization : {"distance", "eikonal", "diffusion", "none"}
-        What makes `phi` a distance again (3.4).
-    k : int
-        Nearest neighbours of a fit: at least 3, of quadratic ones 9.
-    max_steps : int
-        A run that ends there warns.
-    tolerance : float
-        The evolution ends when the surface moves by less, in spacings per unit of time.
-    band_width : float
-        Only samples so near to the surface, in spacings, are advanced: at least 3; 0: all.
+    {parameters}
     threads, progress
         As those of `isosurface`.
 
@@ -99,9 +77,6 @@ def level_set(points, fields=None, *, iso, field="", mu=None, scale=(1.0, 1.0, 1
     samples = as_samples(points, fields)
     stretch = _parameters.Stretch(scale, rotate)
     sides = samples._find_box(periodic)
-    if any(sides) and any(stretch.rotation):
-        raise ValueError("periodic goes without rotate and a scale of nine numbers: the sides of the box lie along x, y "
-                         "and z.")
     samples, name = samples._with_numbers(field, threads, progress, sides)
     initial = {}
     if isinstance(start, str):
@@ -109,27 +84,20 @@ def level_set(points, fields=None, *, iso, field="", mu=None, scale=(1.0, 1.0, 1
         initial = {"kind": "field", "field": start_name}
     elif start is not None:
         initial = _parameters.mapping(start, "start")
-    factors = stretch.resolve(samples._dataset, name)
-    imaged = None
-    if any(sides):
-        imaged = samples._with_images(sides, factors, threads, progress)
-        samples = Samples._of(imaged.samples)
-    parameters = dict(field=name, isovalue=isovalues[0], mu=mu, initial=initial, outside=outside, scale=factors,
-                      rotation=stretch.rotation, scheme=scheme, flow=flow, bound=bound, integration=integration,
-                      reinitialization=reinitialization, k=k, max_steps=max_steps, tolerance=tolerance,
-                      band_width=band_width)
+    by_field = stretch.word == "auto"
+    parameters.update(field=name, isovalue=isovalues[0], initial=initial, rotation=stretch.rotation,
+                      scale=[1.0, 1.0, 1.0] if by_field else stretch.resolve(samples._dataset))
     dataset, found, report, taken = _run(_core.evolve_level_set, samples, parameters, threads, progress,
-                                         _parameters.count(snapshots, "snapshots"), sides)
-    if imaged is not None:
-        dataset = imaged.drop_images(dataset)
+                                         _parameters.count(snapshots, "snapshots"), sides, by_field)
     result = Samples._of(dataset, report, dict(taken, field=report["field"], snapshots=snapshots, periodic=sides))
     result.snapshots = [(steps, Samples._of(surface)) for steps, surface in found]
     return result
 
 
 @_parameters.with_proposals
-def normals(points, fields=None, *, k=30, scale=(1.0, 1.0, 1.0), rotate=None, view_point=(0.0, 0.0, 0.0), threads=0,
-            progress=None):
+@described(_core.describe_normals())
+def normals(points, fields=None, *, scale=(1.0, 1.0, 1.0), rotate=None, view_point=(0.0, 0.0, 0.0), threads=0,
+            progress=None, **parameters):
     """Estimate normals of a surface given as points (thesis 4.1).
 
     Parameters
@@ -137,8 +105,7 @@ def normals(points, fields=None, *, k=30, scale=(1.0, 1.0, 1.0), rotate=None, vi
     points, fields
         As those of `Samples`, or samples. Normals that they have (fields normal_x,
         normal_y, normal_z) orient the new ones.
-    k : int
-        Nearest neighbours besides the point, at least 2.
+    {parameters}
     scale, rotate
         As those of `isosurface`; "auto" is "spacing".
     view_point : array_like, shape (3,)
@@ -163,8 +130,8 @@ def normals(points, fields=None, *, k=30, scale=(1.0, 1.0, 1.0), rotate=None, vi
     """
     samples = as_samples(points, fields)
     stretch = _parameters.Stretch(scale, rotate)
-    parameters = {"k": k, "scale": stretch.resolve(samples._dataset), "rotation": stretch.rotation,
-                  "view_point": _parameters.numbers(view_point, "view_point")}
+    parameters.update(scale=stretch.resolve(samples._dataset), rotation=stretch.rotation,
+                      view_point=_parameters.numbers(view_point, "view_point"))
     return Samples._of(*_run(_core.estimate_normals, samples, parameters, threads, progress))
 
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/memory.h"
 
+#include <algorithm>
 #include <fstream>
 #include <limits>
 #include <sstream>
@@ -159,6 +160,14 @@ checkMemory(const std::string& what, double bytes, double taken)
                           {{"what", what},
                            {"needed", formatBytes(bytes)},
                            {"available", formatBytes(available)}});
+}
+
+void
+checkMemoryOf(const std::string& task, std::size_t points, double bytes)
+{
+  constexpr double small = 1e7;
+  if (bytes > small)
+    checkMemory(task + " of " + std::to_string(points) + " points", bytes);
 }
 
 } // namespace pcl_uvol

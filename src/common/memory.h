@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Forecast the memory of a run, and refuse work that does not fit before it begins.
+// What memory there is, and work refused that does not fit before it begins.
 #pragma once
 
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/export.h>
 
-#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -52,64 +52,12 @@ public:
 PCL_UVOL_EXPORTS void
 checkMemory(const std::string& what, double bytes, double taken = 0.0);
 
-/** \brief Bytes of a step besides its input. */
-struct MemoryNeed {
-  double peak = 0.0; ///< at most, while it runs
-  double kept = 0.0; ///< of what it leaves
-};
-
-/** \brief Adds up what lives at the same time, in the order of a run: a forecast of its
- * peak.
- *
- * \code
- * MemoryForecast forecast(0.0);
- * forecast.hold(16.0 * points); // an array
- * forecast.run(step);           // beside it
- * forecast.release(16.0 * points);
- * \endcode */
-class MemoryForecast {
-public:
-  /** \param held bytes in use from the start */
-  explicit MemoryForecast(double held)
-      : held_(held)
-      , peak_(held)
-  {
-  }
-
-  void
-  hold(double bytes)
-  {
-    held_ += bytes;
-    peak_ = std::max(peak_, held_);
-  }
-
-  void
-  release(double bytes)
-  {
-    held_ -= bytes;
-  }
-
-  void
-  run(const MemoryNeed& step)
-  {
-    peak_ = std::max(peak_, held_ + step.peak);
-    hold(step.kept);
-  }
-
-  double
-  getHeld() const
-  {
-    return held_;
-  }
-
-  double
-  getPeak() const
-  {
-    return peak_;
-  }
-
-private:
-  double held_, peak_;
-};
+/** \brief checkMemory() of work on points, asked before it begins. Small work is not
+ * checked: to ask what is available takes longer.
+ * \param task as in "Clustering"
+ * \param bytes at the peak, besides the points
+ * \throws NotEnoughMemory "Clustering of 1000 points needs ..." */
+PCL_UVOL_EXPORTS void
+checkMemoryOf(const std::string& task, std::size_t points, double bytes);
 
 } // namespace pcl_uvol

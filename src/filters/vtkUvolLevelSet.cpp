@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "filters/filter_run.h"
+#include "pipeline/level_set_job.h"
 #include <pcl_uvol/filters/vtkUvolLevelSet.h>
-#include <pcl_uvol/levelset/level_set_evolution.h>
 
 #include <vtkDataObject.h>
 #include <vtkDataSetAttributes.h>
@@ -90,19 +90,17 @@ vtkUvolLevelSet::Execute(pcl_uvol::FilterRun& run)
       start.Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE()))
     parameters.initial =
         pcl_uvol::InitialFunction::field(this->FieldToProcess(1, 0, run.input, points));
-  pcl_uvol::LevelSetEvolution<pcl::PCLPointCloud2> evolution;
-  evolution.setInputCloud(
-      pcl::PCLPointCloud2::ConstPtr(&points.dataset.cloud, [](const void*) {}));
-  evolution.setIndices(pcl::make_shared<pcl::Indices>(run.visible));
-  evolution.setParameters(parameters);
-  evolution.setNumberOfThreads(static_cast<unsigned>(this->NumberOfThreads));
-  evolution.setProgressCallback(run.report.progress);
-  pcl_uvol::Dataset result;
-  result.origin = points.dataset.origin;
-  result.double_coordinates = points.dataset.double_coordinates;
-  evolution.evolve(result.cloud);
-  run.report.merge(evolution.getReport());
+  const std::shared_ptr<const pcl_uvol::Dataset> samples(
+      &points.dataset, [](const void*) {}); // which lives as long as the run
+  const pcl_uvol::SmoothedSamples result =
+      pcl_uvol::runLevelSet(samples,
+                            pcl::make_shared<pcl::Indices>(run.visible),
+                            {parameters},
+                            {},
+                            static_cast<unsigned>(this->NumberOfThreads),
+                            run.report.progress);
+  run.report.merge(result.report);
   const std::vector<std::uint32_t> sources(run.visible.begin(), run.visible.end());
-  pcl_uvol::fillOutput(result, points, pcl_uvol::edgesAt(sources), run);
+  pcl_uvol::fillOutput(result.samples, points, pcl_uvol::edgesAt(sources), run);
   run.output.GetPointData()->SetActiveScalars("phi");
 }

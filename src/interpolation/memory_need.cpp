@@ -3,7 +3,6 @@
 
 #include "interpolation/field_model.h"
 #include "interpolation/variogram.h"
-#include "neighbors/memory_need.h"
 
 #include <algorithm>
 #include <cmath>
@@ -35,7 +34,7 @@ fittedSamples(double samples, QueryShape shape)
 double
 modelBytes(double samples, double fields, InterpolationModel model, QueryShape shape)
 {
-  const double fit_bytes = 44.0 + 168.0 * fields; // see BucketFits
+  const double fit_bytes = 50.0 + 168.0 * fields; // see BucketFits
   const double metric_bytes = index_bytes;        // see SampleMetrics
   switch (model) {
   case InterpolationModel::Fit:
@@ -59,31 +58,29 @@ usesVariogram(InterpolationModel model)
 
 } // namespace
 
-MemoryNeed
-interpolationNeed(double samples,
-                  double fields,
-                  const InterpolationParameters& parameters,
-                  double queries,
-                  QueryShape shape)
+double
+interpolationBytes(double samples,
+                   double fields,
+                   const InterpolationParameters& parameters,
+                   double queries,
+                   QueryShape shape)
 {
-  MemoryForecast forecast(0.0);
-  // Values by input index, and the indices of the points that have one.
-  const double of_points = (index_bytes + number_bytes * fields) * samples;
-  forecast.hold(of_points);
-  forecast.run(sampleSetNeed(samples));
-  forecast.hold(number_bytes * fields * samples); // in leaf order
-  forecast.release(number_bytes * fields * samples);
-  if (usesVariogram(parameters.model))
-    forecast.run({detail::variogramBytes(samples), 0.0});
-  forecast.hold(modelBytes(samples, fields, parameters.model, shape));
+  // Samples in leaf order with their values, which came by input index.
+  constexpr double tree_bytes = 36.0, building_bytes = 16.0;
+  const double in_order = (tree_bytes + number_bytes * fields) * samples;
+  const double building = (building_bytes + number_bytes * fields) * samples;
+  const double of_variogram =
+      usesVariogram(parameters.model) ? detail::variogramBytes(samples) : 0.0;
   // Queries as they came and among the samples, their order and how it is found.
-  const double of_queries = 3.0 * number_bytes + sizeof(detail::Query) +
-                            2.0 * index_bytes + 2.0 * number_bytes;
+  const double of_query = 3.0 * number_bytes + sizeof(detail::Query) +
+                          2.0 * index_bytes + 2.0 * number_bytes;
   const double numbers =
       1.0 + (parameters.errors ? 1.0 : 0.0) + (parameters.gradients ? 3.0 : 0.0);
-  const double of_answers = number_bytes * numbers * fields + 1.0;
-  forecast.run({(of_queries + of_answers) * queries, of_answers * queries});
-  return {forecast.getPeak(), forecast.getHeld()};
+  const double of_answer = number_bytes * numbers * fields + 1.0;
+  const double answering = modelBytes(samples, fields, parameters.model, shape) +
+                           (of_query + of_answer) * queries;
+  // Pairs of a variogram are given back in blocks that the heap keeps.
+  return in_order + of_variogram + std::max(building, answering);
 }
 
 } // namespace pcl_uvol

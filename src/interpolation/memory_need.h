@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The memory of fields interpolated between samples.
+// Bytes of fields interpolated between samples, at their peak.
 #pragma once
 
-#include "common/memory.h"
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/interpolation/interpolation_parameters.h>
 
@@ -12,14 +11,14 @@ namespace pcl_uvol {
  * about a line. */
 enum class QueryShape { Space, Plane, Line };
 
-/** \brief What FieldInterpolator takes to be made, and to answer queries.
+/** \brief Of a FieldInterpolator that answers queries, besides the cloud.
  * \param fields number of them
  * \param queries that are answered at a time */
-PCL_UVOL_EXPORTS MemoryNeed
-interpolationNeed(double samples,
-                  double fields,
-                  const InterpolationParameters& parameters,
-                  double queries,
-                  QueryShape shape);
+PCL_UVOL_EXPORTS double
+interpolationBytes(double samples,
+                   double fields,
+                   const InterpolationParameters& parameters,
+                   double queries,
+                   QueryShape shape);
 
 } // namespace pcl_uvol

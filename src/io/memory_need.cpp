@@ -25,14 +25,14 @@ peekRecords(const RecordInfo& info, std::uint64_t packed_bytes)
   checkSize(cloud.points, cloud.point_step);
   const auto points = static_cast<double>(cloud.points);
   const double records = static_cast<double>(recordBytes(info.fields)) * points;
-  cloud.reading.kept = static_cast<double>(cloud.point_step) * points;
+  const double kept = static_cast<double>(cloud.point_step) * points;
   if (packed_bytes > 0) // packed, unpacked and sorted into records; then as points
-    cloud.reading.peak = records + std::max(records + static_cast<double>(packed_bytes),
-                                            cloud.reading.kept);
+    cloud.reading_bytes =
+        records + std::max(records + static_cast<double>(packed_bytes), kept);
   else {
-    cloud.reading.peak = cloud.reading.kept + stream_bytes;
+    cloud.reading_bytes = kept + stream_bytes;
     if (layout.needsOrigin()) // all records are held, until it is known
-      cloud.reading.peak += records;
+      cloud.reading_bytes += records;
   }
   return cloud;
 }
@@ -53,7 +53,7 @@ peekHeader(const std::string& path, const LoadOptions& options)
     if (!source)
       return std::nullopt;
     CloudHeader cloud = peekRecords(source->getInfo(), 0);
-    cloud.reading.peak += static_cast<double>(source->heldBytes());
+    cloud.reading_bytes += static_cast<double>(source->heldBytes());
     return cloud;
   }
   catch (const Exception&) {

@@ -2,7 +2,6 @@
 // Bytes of reading a file, as far as its header tells.
 #pragma once
 
-#include "common/memory.h"
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/io/dataset.h>
 
@@ -17,7 +16,7 @@ namespace pcl_uvol {
 struct PCL_UVOL_EXPORTS CloudHeader {
   std::uint64_t points = 0;
   std::size_t point_step = 0; ///< bytes of a point of Dataset::cloud
-  MemoryNeed reading;         ///< of loadDataset; the cloud is kept
+  double reading_bytes = 0.0; ///< of loadDataset at its peak, the cloud included
   std::optional<double> time; ///< of a snapshot, in the unit of the file
 };
 

@@ -1,53 +1,36 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How large isosurfaces will be, told by a thinned cloud, and the bytes of their
-// extraction.
+// Bytes of isosurfaces besides the cloud, at their peak: enough where surfaces are not
+// larger than usual (tests/tools/test_memory_forecast.cpp measures them).
 #pragma once
 
-#include "common/memory.h"
-#include <pcl_uvol/common/cloud_view.h>
-#include <pcl_uvol/common/export.h>
-#include <pcl_uvol/isosurface/isosurface_extraction.h>
-
-#include <Eigen/Core>
-
-#include <string>
-#include <vector>
+#include <cmath>
+#include <cstddef>
 
 namespace pcl_uvol {
 
-/** \brief About how large the isosurface of one isovalue is. */
-struct SurfaceSize {
-  double crossing = 0.0;  ///< samples next to it
-  double isopoints = 0.0; ///< edges across it
-};
+/** \brief About how many isopoints a surface has. Of N samples c N^(2/3) edges cross
+ * it: c is 3.4 for a torus, 4.7 for a sphere, 13 for a gyroid of three periods. */
+inline double
+usualIsopoints(double samples)
+{
+  return 5.0 * std::pow(samples, 2.0 / 3.0);
+}
 
-/** \brief The sizes of isosurfaces before they are extracted, from some samples at
- * random: of N samples c N^(2/3) lie next to a surface. It assumes that the surface is
- * resolved by the thinned cloud and that the field is smooth: of finer detail and of
- * noise there is more.
- * \param parameters of the extraction; neighbours are those that its criterion leaves
- * of its candidates, of a diagram or the tree of the thinned cloud
- * \return one per isovalue; of size 0 where the field does not tell */
-PCL_UVOL_EXPORTS std::vector<SurfaceSize>
-estimateSurfaces(const CloudView& cloud,
-                 const IsosurfaceParameters& parameters,
-                 unsigned threads);
+/** \brief About how many samples are an end of one of these edges. */
+inline double
+usualCrossing(double samples)
+{
+  return 1.35 * usualIsopoints(samples);
+}
 
-/** \brief A size that forecasts count with: surfaces of measured and simulated data
- * have finer detail than thinned clouds tell. */
-PCL_UVOL_EXPORTS SurfaceSize
-allowForDetail(const SurfaceSize& estimated);
-
-/** \brief Bytes that an IsosurfaceExtraction keeps for the next isovalue: the tree, and
- * the values in its order. */
-PCL_UVOL_EXPORTS double
-extractionBytes(double samples);
-
-/** \brief The memory of IsosurfaceExtraction besides the cloud: 52 to 68 bytes per
- * sample, and per isopoint 76 that remain, as many again while they are joined, and 40
- * for their edges. What it keeps does not count as kept.
- * \param surfaces one per isovalue */
-PCL_UVOL_EXPORTS MemoryNeed
-isosurfaceNeed(double samples, const std::vector<SurfaceSize>& surfaces);
+/** \brief Of IsosurfaceExtraction: 68 bytes per sample for the tree and the values in
+ * its order; the isopoints of one isovalue are sorted and joined with those before. */
+inline double
+isosurfaceBytes(double samples, std::size_t isovalues)
+{
+  constexpr double sorted = 200.0, joined = 116.0; // bytes of an isopoint
+  return 68.0 * samples +
+         (sorted + joined * static_cast<double>(isovalues)) * usualIsopoints(samples);
+}
 
 } // namespace pcl_uvol

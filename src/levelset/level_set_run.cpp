@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "common/memory.h"
 #include "common/number_range.h"
 #include "levelset/band.h"
 #include "levelset/constants.h"
@@ -6,6 +7,7 @@
 #include "levelset/deviation.h"
 #include "levelset/evolver.h"
 #include "levelset/level_set_input.h"
+#include "levelset/memory_need.h"
 #include "levelset/mu_choice.h"
 #include "levelset/reinitialization.h"
 #include "levelset/robust_values.h"
@@ -230,6 +232,13 @@ private:
   void
   makeBand(const std::vector<std::uint32_t>& crossing)
   {
+    // A band takes what the one before leaves.
+    const auto need = [&](const std::vector<std::uint32_t>& around) {
+      return bandBytes(static_cast<double>(samples_.size()),
+                       static_cast<double>(around.size()),
+                       parameters_);
+    };
+    checkMemoryOf("A level set", samples_.size(), need(crossing) - need(crossing_));
     evolver_.reset();
     band_.reset(); // before the new one takes as much again
     relaxation_band_.reset();
@@ -562,6 +571,8 @@ detail::evolveLevelSet(const CloudView& cloud,
                        Report& report)
 {
   checkParameters(parameters);
+  checkMemoryOf(
+      "A level set", indices.size(), orderedBytes(static_cast<double>(indices.size())));
   const StretchAxes axes(parameters.rotation);
   const CloudView turned = axes.turn(cloud);
   LevelSetParameters along_axes = parameters;

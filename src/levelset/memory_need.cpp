@@ -3,8 +3,8 @@
 
 #include "levelset/band.h"
 #include "levelset/constants.h"
-#include "neighbors/memory_need.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace pcl_uvol {
@@ -48,46 +48,28 @@ constexpr double other_bytes = index_bytes + sizeof(Band::Support) + 3.0 * float
 
 } // namespace
 
-MemoryNeed
-levelSetNeed(double samples,
-             const SurfaceSize& surface,
-             const LevelSetParameters& parameters)
+double
+bandBytes(double samples, double crossing, const LevelSetParameters& parameters)
 {
   // The band is as much thicker than the crossing samples as its width on both sides;
   // neighbours reach beyond by the radius of the ball that holds k of them.
   const auto k = static_cast<double>(parameters.k);
-  const double per_spacing = surface.crossing / crossing_thickness;
+  const double per_spacing = crossing / crossing_thickness;
   const double reach = std::cbrt(k / (4.0 / 3.0 * 3.14159265358979));
   const double thickness = crossing_thickness + 2.0 * parameters.band_width;
   const double centers = parameters.band_width > 0.0
                              ? std::min(samples, per_spacing * thickness)
                              : samples;
   const double others = std::min(samples - centers, 2.0 * per_spacing * reach);
-
-  MemoryForecast forecast(0.0);
-  // The scalar, and the indices of the points with a value.
-  const double of_points = (float_bytes + index_bytes) * samples;
-  forecast.hold(of_points);
-  forecast.run(sampleSetNeed(samples));
-  forecast.hold((float_bytes + index_bytes) * samples); // in leaf order, with sources
-  forecast.release(of_points);
-  forecast.hold(float_bytes * samples); // phi
-  forecast.run({nodeRangesBytes(samples), 0.0});
-  forecast.hold((stencilBytes(parameters) + centerBytes(parameters)) * centers +
-                other_bytes * others);
   // Weights are tried by a second evolver, on data of its own; of a given one a band
   // around a patch tells what it leaves of the noise, twice.
-  if (!parameters.mu)
-    forecast.run({(evolverBytes(parameters) + 4.0 * float_bytes) * centers +
-                      3.0 * float_bytes * others,
-                  0.0});
-  else
-    forecast.run({(stencilBytes(parameters) + 2.0 * centerBytes(parameters)) * centers *
-                      std::min(1.0, level_set.patch_samples / surface.crossing),
-                  0.0});
-  // phi and deviations of all samples, in leaf order and then as they came.
-  forecast.run({3.0 * float_bytes * samples, 0.0});
-  return {forecast.getPeak(), (2.0 * float_bytes + index_bytes) * samples};
+  const double trials =
+      parameters.mu ? (stencilBytes(parameters) + 2.0 * centerBytes(parameters)) *
+                          centers * std::min(1.0, level_set.patch_samples / crossing)
+                    : (evolverBytes(parameters) + 4.0 * float_bytes) * centers +
+                          3.0 * float_bytes * others;
+  return (stencilBytes(parameters) + centerBytes(parameters)) * centers +
+         other_bytes * others + trials;
 }
 
 } // namespace pcl_uvol

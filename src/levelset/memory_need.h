@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bytes of a level set.
+// Bytes of a level set besides the cloud, at its peak.
 #pragma once
 
-#include "common/memory.h"
-#include "isosurface/memory_need.h"
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/levelset/level_set_parameters.h>
 
 namespace pcl_uvol {
 
-/** \brief The need of LevelSetEvolution, besides the cloud; see there.
- * \param surface the isosurface that it starts from, which tells how many samples are
- * in the band: a start from a shape counts as one of the same size */
-PCL_UVOL_EXPORTS MemoryNeed
-levelSetNeed(double samples,
-             const SurfaceSize& surface,
-             const LevelSetParameters& parameters);
+/** \brief Of the stencils in the band.
+ * \param crossing samples beside the surface, see usualCrossing() */
+PCL_UVOL_EXPORTS double
+bandBytes(double samples, double crossing, const LevelSetParameters& parameters);
+
+/** \brief Of all samples: the tree, values and phi in its order, with their sources. */
+constexpr double
+orderedBytes(double samples)
+{
+  return 44.0 * samples;
+}
 
 } // namespace pcl_uvol

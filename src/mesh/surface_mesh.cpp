@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "common/memory.h"
 #include "common/number_range.h"
 #include "common/parameter_json.h"
 #include "common/scalar_field.h"
@@ -7,6 +8,7 @@
 #include "isosurface/piece_isopoints.h"
 #include "isosurface/spike_test.h"
 #include "mesh/band_surface.h"
+#include "mesh/memory_need.h"
 #include "mesh/mesh_vertices.h"
 #include "mesh/remeshing.h"
 #include "mesh/surface_pieces.h"
@@ -200,6 +202,9 @@ makeSurfaceMesh(const CloudView& cloud,
       continue;
     }
     const auto crossing = candidates.findCrossing(read.ranges, rounded, threads);
+    checkMemoryOf("A mesh beside samples",
+                  crossing.size(),
+                  meshBytes(static_cast<double>(crossing.size())));
     report.count("crossing_samples", crossing.size());
     countSpikes(input, crossing, rounded, report);
     WorkingMesh mesh = makeBandSurface(input, rounded, report);

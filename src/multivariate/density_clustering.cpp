@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "common/memory.h"
 #include "common/parameter_json.h"
 #include "multivariate/cluster_attributes.h"
 #include "multivariate/cluster_tree.h"
+#include "multivariate/memory_need.h"
 #include "multivariate/rounded_attributes.h"
 #include "multivariate/spanning_tree.h"
 
@@ -155,6 +157,11 @@ clusterAttributes(const AttributeTable& table,
   checkParameters(parameters);
   if (table.rows() == 0)
     throw InvalidArgument("no_points_to_cluster", {});
+  checkMemoryOf("Clustering",
+                table.rows(),
+                clusteringBytes(static_cast<double>(table.rows()),
+                                static_cast<double>(table.columns()),
+                                static_cast<double>(parameters.neighbors)));
   const std::size_t min_size = parameters.min_cluster_size > 0
                                    ? parameters.min_cluster_size
                                    : usualSize(table.rows());

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bytes of a clustering.
+// Bytes of a clustering besides the cloud, at its peak.
 #pragma once
 
-#include "common/memory.h"
-#include <pcl_uvol/common/export.h>
+#include <algorithm>
 
 namespace pcl_uvol {
 
-/** \brief The memory of DensityClustering besides the cloud: 60 bytes per point, 12 per
- * point and attribute, and 8 per neighbour that core distances reach to, of which there
- * are 8 at least; labels and probabilities remain. */
-PCL_UVOL_EXPORTS MemoryNeed
-clusteringNeed(double points, double attributes, double neighbors);
+/** \brief Of DensityClustering. Core distances reach to eight neighbours at least. */
+inline double
+clusteringBytes(double points, double attributes, double neighbors)
+{
+  return (60.0 + 12.0 * attributes + 8.0 * std::max(neighbors, 8.0)) * points;
+}
 
 } // namespace pcl_uvol

@@ -2,6 +2,7 @@
 #include "pipeline/gap_filling.h"
 
 #include "common/median.h"
+#include "common/memory.h"
 #include "common/number_range.h"
 #include "common/parallel.h"
 #include "common/printable.h"
@@ -470,6 +471,10 @@ FilledGaps::predict(const pcl::PointCloud<PointIso>& roots,
     else
       summary_.spacing *= 2.0;
   }
+  constexpr double node_bytes = 300.0; // in tables, as a sample, and in a tree
+  checkMemoryOf("Filling gaps by a lattice",
+                nodes.size(),
+                node_bytes * static_cast<double>(nodes.size()));
   summary_.predicted = nodes.size();
   summary_.unfilled = nodes.empty() ? tellWhyEmpty(summary_, kriged) : std::string();
   if (nodes.empty())

@@ -35,17 +35,6 @@ namespace pcl_uvol::detail {
  * more gets a coarser one. */
 constexpr std::size_t most_gap_nodes = std::size_t{1} << 20;
 
-/** \brief About how many nodes there are, by the width of the gaps and by how often the
- * values of nearest samples cross an isovalue. Takes an extraction with linear
- * isopoints.
- *
- * \param parameters as resolved
- * \return 0 where the field or the samples do not tell */
-PCL_UVOL_EXPORTS double
-estimateGapNodes(const std::shared_ptr<const Dataset>& samples,
-                 const IsosurfacePipelineParameters& parameters,
-                 unsigned threads);
-
 /** \brief Kriging as it bridges gaps: from 16 samples, an eighth of them from each
  * octant, since the nearest ones may all lie on one line. Without errors and gradients.
  */

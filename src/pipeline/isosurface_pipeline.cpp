@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "common/memory.h"
 #include "common/records.h"
 #include "common/sample_checks.h"
 #include "common/scalar_field.h"
@@ -102,9 +103,10 @@ IsosurfacePipeline::resolveParameters(std::optional<ScaleChoice>* choice) const
 double
 IsosurfacePipeline::estimateMemory() const
 {
-  IsosurfacePipelineParameters parameters = parameters_;
-  parameters.isosurface = resolveParameters();
-  return estimatePeak(samples_, parameters, threads_);
+  const PipelineInput input = takeInput(samples_, indices_, parameters_);
+  return pipelineBytes(static_cast<double>(countPoints(input)),
+                       static_cast<double>(input.samples->cloud.point_step),
+                       parameters_);
 }
 
 IsosurfaceResult
@@ -113,6 +115,7 @@ IsosurfacePipeline::run()
   checkParameters(parameters_);
   startReport();
   PipelineInput input = takeInput(samples_, indices_, parameters_);
+  checkMemoryOf("An isosurface", countPoints(input), estimateMemory());
   std::optional<ScaleChoice> scale_choice;
   std::optional<SamplingSummary> sampling;
   std::unique_ptr<detail::FilledGaps> gaps;

@@ -1,35 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The memory of IsosurfacePipeline, from the samples to the surface with all fields.
+// Bytes of whole jobs besides the samples, at their peak.
 #pragma once
 
-#include "isosurface/memory_need.h"
-#include <pcl_uvol/common/dataset.h>
+#include "pipeline/level_set_job.h"
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>
 
-#include <memory>
-#include <vector>
-
 namespace pcl_uvol {
 
-/** \brief Add the memory of IsosurfacePipeline::run() to a forecast.
- * \param points, point_step of the samples, which the forecast holds already
- * \param surfaces see estimateSurfaces; fewer than isovalues, or none, where their
- * sizes are not known
- * \param gap_nodes see estimateGapNodes; without gaps to fill they count for nothing */
-PCL_UVOL_EXPORTS void
-addMemoryNeed(const IsosurfacePipelineParameters& parameters,
-              double points,
+/** \brief Of IsosurfacePipeline, from the samples to surfaces of usual size with all
+ * fields.
+ *
+ * \param point_step bytes of a sample */
+PCL_UVOL_EXPORTS double
+pipelineBytes(double samples,
               double point_step,
-              std::vector<SurfaceSize> surfaces,
-              double gap_nodes,
-              MemoryForecast& forecast);
+              const IsosurfacePipelineParameters& parameters);
 
-/** \brief See IsosurfacePipeline::estimateMemory().
- * \param parameters with the field and the scale that are taken */
-double
-estimatePeak(const std::shared_ptr<const Dataset>& samples,
-             const IsosurfacePipelineParameters& parameters,
-             unsigned threads);
+/** \brief Of runLevelSet(), and of writing what comes of it. */
+PCL_UVOL_EXPORTS double
+levelSetJobBytes(double samples, double point_step, const LevelSetRequest& request);
 
 } // namespace pcl_uvol

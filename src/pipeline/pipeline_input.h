@@ -3,6 +3,7 @@
 #pragma once
 
 #include "common/large_array.h"
+#include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>
 
@@ -26,6 +27,12 @@ inline pcl::PCLPointCloud2::ConstPtr
 shareCloud(const PipelineInput& input)
 {
   return {input.samples, &input.samples->cloud};
+}
+
+inline std::size_t
+countPoints(const PipelineInput& input)
+{
+  return input.use ? input.use->size() : viewOf(input.samples->cloud).count;
 }
 
 /** \brief The points to take. */

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "common/memory.h"
 #include "common/parallel.h"
 #include "common/parameter_json.h"
 #include "common/random.h"
 #include "surface/footprints.h"
+#include "surface/memory_need.h"
 #include "surface/splat_growth.h"
 #include "surface/splat_input.h"
 #include "surface/usual_extent.h"
@@ -219,6 +221,8 @@ detail::generateSplats(const CloudView& cloud,
   checkParameters(parameters);
   if (use.empty())
     throw InvalidArgument("empty_cloud", {{"stage", "The splat generation"}});
+  checkMemoryOf(
+      "Making splats", use.size(), splatsBytes(static_cast<double>(use.size())));
   OrientedPoints points = orientPoints(cloud, use, threads, report);
   points.bridged.clear(); // splats stand for all points
   const LengthUnit& unit = points.samples->getUnit();

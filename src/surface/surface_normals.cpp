@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "common/memory.h"
 #include "common/parallel.h"
 #include "common/scalar_field.h"
 #include "common/stretch_axes.h"
 #include "neighbors/nearest_neighbors.h"
+#include "surface/memory_need.h"
 #include <pcl_uvol/surface/surface_normals.h>
 
 #include <Eigen/Eigenvalues>
@@ -238,6 +240,10 @@ estimateSurfaceNormals(const CloudView& input,
   checkParameters(parameters);
   if (indices.empty())
     throw InvalidArgument("empty_cloud", {{"stage", "The normal estimation"}});
+  checkMemoryOf("Estimating normals",
+                indices.size(),
+                surfaceNormalsBytes(static_cast<double>(indices.size()),
+                                    static_cast<double>(parameters.k)));
   const Eigen::Array3f& scale = parameters.scale;
   const StretchAxes axes(parameters.rotation);
   const CloudView cloud = axes.turn(input);

@@ -152,23 +152,6 @@ TEST(Memory, PeakIsTheMostThatWasResident)
   EXPECT_LT(pcl_uvol::residentMemory(), before + bytes / 10);
 }
 
-TEST(MemoryForecast, AddsUpWhatLivesAtTheSameTime)
-{
-  pcl_uvol::MemoryForecast forecast(10.0);
-  EXPECT_EQ(10.0, forecast.getPeak());
-  forecast.hold(5.0);
-  forecast.run({100.0, 20.0}); // 115 while it runs, 35 after it
-  EXPECT_EQ(115.0, forecast.getPeak());
-  EXPECT_EQ(35.0, forecast.getHeld());
-  forecast.release(15.0);
-  forecast.run({90.0, 0.0});
-  EXPECT_EQ(115.0, forecast.getPeak());
-  forecast.run({100.0, 0.0});
-  EXPECT_EQ(120.0, forecast.getPeak());
-  forecast.run({1.0, 200.0}); // what remains was there at the peak
-  EXPECT_EQ(220.0, forecast.getPeak());
-}
-
 TEST(Memory, BytesAreTold)
 {
   EXPECT_EQ("0 bytes", formatBytes(0.0));

@@ -6,11 +6,13 @@
 #include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/message.h>
 #include <pcl_uvol/filters/vtkUvolIsosurface.h>
+#include <pcl_uvol/filters/vtkUvolLevelSet.h>
 #include <pcl_uvol/io/dataset.h>
 
 #include <vtkXMLPolyDataReader.h>
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -199,6 +201,13 @@ protected:
     pcl_uvol::saveDataset(folder_ / "in.vtp", dataset);
   }
 
+  /** Not above all values. */
+  static bool
+  hasLevelSet()
+  {
+    return std::string(subject().code) != "no_isopoints";
+  }
+
   static const Subject&
   subject()
   {
@@ -216,20 +225,56 @@ protected:
     return toMessages(json::parse(result.out).at("warnings"));
   }
 
-  /** The words of the filter's warnings, without the place that VTK puts in front. */
+  /** The words of a filter's warnings, without the place that VTK puts in front. */
+  template <typename Filter>
   std::vector<std::string>
-  runFilter() const
+  runFilter(const std::function<void(Filter&)>& set_isovalue) const
   {
     vtkNew<vtkXMLPolyDataReader> reader;
     reader->SetFileName((folder_ / "in.vtp").c_str());
-    vtkNew<vtkUvolIsosurface> filter;
+    vtkNew<Filter> filter;
     const Listener listener(*filter);
     filter->SetInputConnection(reader->GetOutputPort());
     filter->SetInputArrayToProcess(
         0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "f");
-    filter->SetValue(0, subject().isovalue);
+    set_isovalue(*filter);
     filter->Update();
     return listener.warnings;
+  }
+
+  /** Each of the texts is among what the filter told, and nothing else is. */
+  static void
+  expectHeard(const std::vector<Message>& told, const std::vector<std::string>& heard)
+  {
+    const auto expected = sortedTexts(told);
+    ASSERT_EQ(expected.size(), heard.size()) << json(expected) << json(heard);
+    for (const std::string& text : expected)
+      EXPECT_TRUE(std::any_of(heard.begin(),
+                              heard.end(),
+                              [&](const std::string& words) {
+                                return words.find(text) != std::string::npos;
+                              }))
+          << text << json(heard);
+  }
+
+  /** What Python tells of a surface or samples.
+   * \param call of a function of the module, up to its isovalue */
+  std::vector<Message>
+  runPython(const std::string& call) const
+  {
+    writeFile(folder_ / "run.py",
+              "import json, sys, warnings\n"
+              "import pcl_uvol as uvol\n"
+              "warnings.simplefilter('ignore')\n"
+              "found = uvol." +
+                  call + "(uvol.read('in.vtp'), field='f', iso=" + isoOf(subject()) +
+                  ")\n"
+                  "print(json.dumps(found.report['warnings']))\n");
+    const auto result = runCommand("cd " + (folder_ / "") + " && " +
+                                   std::string(PCL_UVOL_PYTHON) + " run.py");
+    EXPECT_EQ(0, result.exit_code) << result.err;
+    return result.exit_code == 0 ? toMessages(json::parse(result.out))
+                                 : std::vector<Message>();
   }
 
   TemporaryFolder folder_;
@@ -243,16 +288,9 @@ TEST_P(SameWarnings, ToolAndFilter)
     EXPECT_EQ(1, std::count(codes.begin(), codes.end(), code)) << json(codes);
   else
     EXPECT_EQ(std::vector<std::string>(), codes);
-  auto heard = runFilter();
-  ASSERT_EQ(told.size(), heard.size()) << json(sortedTexts(told)) << json(heard);
-  const auto expected = sortedTexts(told);
-  for (const std::string& text : expected)
-    EXPECT_TRUE(std::any_of(heard.begin(),
-                            heard.end(),
-                            [&](const std::string& words) {
-                              return words.find(text) != std::string::npos;
-                            }))
-        << text << json(heard);
+  expectHeard(told, runFilter<vtkUvolIsosurface>([](vtkUvolIsosurface& filter) {
+                filter.SetValue(0, subject().isovalue);
+              }));
 }
 
 /** Ranks have other normals where there is no fit, and so other numbers. */
@@ -266,21 +304,23 @@ TEST_P(SameWarnings, ToolAndRanks)
 
 TEST_P(SameWarnings, ToolAndPython)
 {
-  const std::string python = PCL_UVOL_PYTHON;
-  if (python.empty())
+  if (std::string(PCL_UVOL_PYTHON).empty())
     GTEST_SKIP() << "Python's module is not built";
-  writeFile(folder_ / "run.py",
-            "import json, sys, warnings\n"
-            "import pcl_uvol as uvol\n"
-            "warnings.simplefilter('ignore')\n"
-            "surface = uvol.isosurface(uvol.read('in.vtp'), field='f', iso=" +
-                isoOf(subject()) +
-                ")\n"
-                "print(json.dumps(surface.report['warnings']))\n");
-  const auto result = runCommand("cd " + (folder_ / "") + " && " + python + " run.py");
-  ASSERT_EQ(0, result.exit_code) << result.err;
   EXPECT_EQ(sortedTexts(runTool("uvol_isosurface")),
-            sortedTexts(toMessages(json::parse(result.out))));
+            sortedTexts(runPython("isosurface")));
+}
+
+TEST_P(SameWarnings, OfLevelSets)
+{
+  if (!hasLevelSet())
+    GTEST_SKIP() << "the values do not enclose the isovalue";
+  const auto told = runTool("uvol_levelset");
+  expectHeard(told, runFilter<vtkUvolLevelSet>([](vtkUvolLevelSet& filter) {
+                filter.SetIsovalue(subject().isovalue);
+              }));
+  if (!std::string(PCL_UVOL_PYTHON).empty()) {
+    EXPECT_EQ(sortedTexts(told), sortedTexts(runPython("level_set")));
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Subjects,

@@ -602,27 +602,6 @@ TEST(GapFilling, FindsTheRangeOfAFieldWithSpikes)
   EXPECT_LT(result.gaps->nugget, 0.1 * result.gaps->sill);
 }
 
-TEST(GapFilling, TellsBeforehandHowManyNodesThereAreAtMost)
-{
-  const auto estimate = [](float unit, const IsosurfacePipelineParameters& parameters) {
-    return detail::estimateGapNodes(makeProfiles(20, unit), parameters, 2);
-  };
-  IsosurfacePipelineParameters parameters = makeParameters(true);
-  const double nodes = estimate(1.0f, parameters);
-  const auto predicted =
-      static_cast<double>(uvol_test::runPipeline(makeProfiles(20), parameters)
-                              .report.getCount("predicted_samples"));
-  EXPECT_GT(nodes, predicted);
-  EXPECT_LT(nodes, 4.0 * predicted);
-  EXPECT_NEAR(1.0, estimate(1e6f, parameters) / nodes, 0.01);
-  parameters.isosurface.isovalues = {0.0, 0.1};
-  EXPECT_LE(estimate(1.0f, parameters), 2.0 * nodes);
-  parameters.isosurface.scale = {1000.0f, 1000.0f, 1.0f};
-  EXPECT_LE(estimate(1.0f, parameters), detail::most_gap_nodes);
-  parameters.isosurface.field = "nothing";
-  EXPECT_EQ(0.0, estimate(1.0f, parameters));
-}
-
 TEST(GapFilling, RefusesWhatItCannotFill)
 {
   auto parameters = makeParameters(true);

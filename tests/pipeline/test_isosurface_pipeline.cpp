@@ -346,23 +346,30 @@ TEST(IsosurfacePipeline, WarnsOfReplacedFields)
 
 TEST(IsosurfacePipeline, ForecastsItsMemory)
 {
-  const auto samples = makeSamples();
   IsosurfacePipeline pipeline;
-  pipeline.setInput(samples);
+  EXPECT_THROW(pipeline.estimateMemory(), InvalidArgument); // without an input
+  pipeline.setInput(makeSamples());
   pipeline.setParameters(makeParameters());
-  EXPECT_GT(pipeline.estimateMemory(), 50.0 * 4000);
-  EXPECT_LT(pipeline.estimateMemory(), 1000.0 * 4000);
-  const double isopoints = pipeline.run().surface.cloud.width;
-  const std::vector<pcl_uvol::SurfaceSize> sizes{{isopoints, isopoints}};
-  const auto forecast = [&](bool smooth, double points) {
-    IsosurfacePipelineParameters parameters = makeParameters();
-    parameters.smooth = smooth;
-    pcl_uvol::MemoryForecast memory(0.0);
-    pcl_uvol::addMemoryNeed(parameters, points, 20.0, sizes, 0.0, memory);
-    return memory.getPeak();
+  const double plain = pipeline.estimateMemory();
+  EXPECT_GT(plain, 50.0 * 4000);
+  EXPECT_LT(plain, 1000.0 * 4000);
+  using Parameters = IsosurfacePipelineParameters;
+  const auto expect_more = [&](const std::string& name, auto change) {
+    Parameters parameters = makeParameters();
+    change(parameters);
+    pipeline.setParameters(parameters);
+    EXPECT_GT(pipeline.estimateMemory(), 1.05 * plain) << name;
   };
-  EXPECT_GT(forecast(false, 1e6), 50e6);
-  EXPECT_GT(forecast(true, 1e6), forecast(false, 1e6));
+  expect_more("smooth", [](Parameters& p) { p.smooth = true; });
+  expect_more("mesh", [](Parameters& p) { p.mesh.emplace(); });
+  expect_more("periodic", [](Parameters& p) { p.periodic = {1.0, 1.0, 1.0}; });
+  expect_more("gaps", [](Parameters& p) { p.fill_gaps = true; });
+  expect_more("turned", [](Parameters& p) { p.rotation = {0.1, 0.0, 0.0}; });
+  expect_more("folds", [](Parameters& p) { p.validation.folds = 5; });
+  expect_more("isovalues", [](Parameters& p) { p.isosurface.isovalues = {0.1, 0.2}; });
+  expect_more("exact", [](Parameters& p) {
+    p.isosurface.neighbors = pcl_uvol::NeighborSource::Exact;
+  });
 }
 
 TEST(IsosurfacePipeline, RefusesWhatItCannotDo)

@@ -6,10 +6,13 @@ import doctest
 import importlib
 import inspect
 import json
+import os
 import pathlib
 import pickle
 import pkgutil
 import re
+import subprocess
+import sys
 import warnings
 
 import numpy as np
@@ -402,3 +405,22 @@ def test_random_keywords_get_a_sentence_or_a_result(tmp_path):
             except (ValueError, TypeError, KeyError, IndexError, MemoryError, uvol.DivergedError) as error:
                 told = str(error)
                 assert told and not any(phrase in told for phrase in of_others), (function, options)
+
+
+def test_parameters_are_explained_where_they_are_listed():
+    """Functions with the parameters of a stage have them in their signature and docstring."""
+    signature = inspect.signature(uvol.level_set)
+    assert signature.parameters["k"].default == 26 and signature.parameters["mu"].default is None
+    assert "parameters" not in signature.parameters
+    text = inspect.getdoc(uvol.level_set)
+    assert "{parameters}" not in text
+    assert 'flow : {"mean", "relative"}\n    What smooths' in text and "\nk : int\n    Nearest neighbours" in text
+    assert "\nk : int\n    Nearest neighbours besides the point" in inspect.getdoc(uvol.normals)
+    with pytest.raises(TypeError, match="did you mean 'tolerance'"):
+        uvol.level_set(np.zeros((3, 3)), iso=0, tolerence=1)
+
+
+def test_module_works_without_docstrings():
+    environment = {**os.environ, "PYTHONOPTIMIZE": "2"}
+    subprocess.run([sys.executable, "-c", "import pcl_uvol; raise SystemExit(pcl_uvol.level_set.__doc__)"], check=True,
+                   env=environment)

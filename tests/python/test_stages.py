@@ -61,8 +61,8 @@ def test_level_sets_in_boxes_that_repeat(tmp_path, run_tool, arguments, options)
     smooth = uvol.level_set(uvol.read(tmp_path / "in.ply"), field="f+0", iso=0, mu=0.5, max_steps=10, snapshots=5, **options)
     smooth.snapshots[0][1].save(tmp_path / "module.ply")
     assert (tmp_path / "module.ply").read_bytes() == (tmp_path / "tool_00005.ply").read_bytes()
-    with pytest.raises(ValueError, match="periodic goes without rotate"):
-        uvol.level_set(samples, field="f", iso=0, rotate=(1, 2, 3), **options)
+    with pytest.raises(ValueError, match="box that repeats goes without a rotation"):
+        uvol.level_set(samples, field="f", iso=0, rotate=(30, 20, 10), **options)
 
 
 @pytest.mark.parametrize("scale", ["1,1,1", "auto"])

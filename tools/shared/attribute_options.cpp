@@ -3,7 +3,7 @@
 
 #include "common/sample_checks.h"
 #include "common/scalar_field.h"
-#include "expressions/memory_need.h"
+#include "shared/memory_guard.h"
 #include "shared/point_files.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
@@ -60,13 +60,10 @@ AttributeOptions::addFields(const Options& options,
   }
 }
 
-void
-AttributeOptions::addFieldsNeed(double points,
-                                double& point_step,
-                                pcl_uvol::MemoryForecast& forecast) const
+double
+AttributeOptions::getDerivativeBytes(double points) const
 {
-  for (const std::string& name : parseNames("attributes", text_))
-    forecast.run(pcl_uvol::derivedFieldNeed(name, points, point_step));
+  return derivativeBytes(text_, points);
 }
 
 pcl_uvol::Clustering

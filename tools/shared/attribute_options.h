@@ -2,7 +2,6 @@
 // Attributes and labels on the command line: what uvol_cluster and uvol_project share.
 #pragma once
 
-#include "common/memory.h"
 #include "shared/options.h"
 #include "shared/point_files.h"
 #include <pcl_uvol/common/cloud_view.h>
@@ -41,12 +40,9 @@ public:
             pcl_uvol::Dataset& dataset,
             pcl_uvol::Report& report);
 
-  /** \brief Add the memory of addFields to a forecast.
-   * \param point_step becomes that with the fields */
-  void
-  addFieldsNeed(double points,
-                double& point_step,
-                pcl_uvol::MemoryForecast& forecast) const;
+  /** \brief See derivativeBytes(). */
+  double
+  getDerivativeBytes(double points) const;
 
   /** \brief Clusters of these attributes, per point.
    * \throws as DensityClustering, and InvalidArgument for the position of data that

@@ -33,16 +33,12 @@ DensityOptions::declare(Options& options)
       .rare();
 }
 
-pcl_uvol::MemoryNeed
-DensityOptions::getMemoryNeed(double points, double step)
+double
+DensityOptions::findBytes(double points) const
 {
-  // Samples with their tree, kernels, masses twice, densities; then the points anew.
+  // Samples with their tree, kernels, masses twice, densities.
   constexpr double sums = 36.0 + 40.0 + 3 * 8.0 + 24.0;
-  constexpr double field = 8.0;
-  pcl_uvol::MemoryNeed need;
-  need.kept = field * points;
-  need.peak = std::max(sums, field + step + field) * points;
-  return need;
+  return isAskedFor() ? sums * points : 0.0;
 }
 
 double

@@ -2,7 +2,6 @@
 // Densities of particles that come without one, as an option.
 #pragma once
 
-#include "common/memory.h"
 #include "shared/options.h"
 #include <pcl_uvol/common/dataset.h>
 
@@ -34,9 +33,9 @@ public:
            pcl_uvol::Report& report,
            const std::array<double, 3>& periodic = {}) const;
 
-  /** \brief Bytes of adding it to so many points of such a step, on top of them. */
-  static pcl_uvol::MemoryNeed
-  getMemoryNeed(double points, double step);
+  /** \brief Bytes of adding it, beside the points; 0 if it is not asked for. */
+  double
+  findBytes(double points) const;
 
 private:
   /** How far the kernels of the samples reach, where the option or a field tells; 0:

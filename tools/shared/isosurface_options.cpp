@@ -72,12 +72,8 @@ IsosurfaceOptions::finish(const Options& options)
 void
 IsosurfaceOptions::resolveSpacing(const pcl_uvol::Dataset& samples)
 {
-  if (!scale_.isFromSpacing())
-    return;
-  pcl_uvol::Report own;
-  Facts facts; // the scale is told with the result
   parameters.isosurface.scale =
-      scale_.resolve(pcl_uvol::viewOf(samples.cloud), "", 0, own, facts).scale;
+      scale_.findStretch(pcl_uvol::viewOf(samples.cloud)).scale;
 }
 
 pcl_uvol::LoadOptions

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shared/memory_guard.h"
 
+#include "common/memory.h"
+#include "expressions/formula.h"
 #include "io/memory_need.h"
 
 #include <algorithm>
@@ -21,14 +23,10 @@ constexpr double later_bytes = 4e6;
  * large blocks go back at once. */
 constexpr double scattered_share = 0.05, most_scattered_bytes = 8e6;
 
-/** The peak of a process.
- * \param forecast counts what it asks for
- * \param base what it has in use at the start */
 double
-addScattered(const pcl_uvol::MemoryForecast& forecast, double base)
+addScattered(double bytes)
 {
-  const double asked = forecast.getPeak() - base;
-  return base + asked + std::min(scattered_share * asked, most_scattered_bytes);
+  return bytes + std::min(scattered_share * bytes, most_scattered_bytes);
 }
 
 } // namespace
@@ -41,33 +39,29 @@ MemoryGuard::MemoryGuard(std::string task)
 
 void
 MemoryGuard::checkFile(const std::string& path,
-                       const Work& work,
+                       const Bytes& bytes,
                        const pcl_uvol::LoadOptions& options)
 {
   const auto cloud = pcl_uvol::peekHeader(path, options);
   if (!cloud)
     return;
   const auto points = static_cast<double>(cloud->points);
-  pcl_uvol::MemoryForecast forecast(base_);
-  forecast.run(cloud->reading);
-  if (work)
-    work(points, static_cast<double>(cloud->point_step), forecast);
-  forecast_ = addScattered(forecast, base_);
+  const auto step = static_cast<double>(cloud->point_step);
+  const double working = bytes ? points * step + bytes(points, step) : 0.0;
+  forecast_ = base_ + addScattered(std::max(cloud->reading_bytes, working));
   check(points);
 }
 
 void
-MemoryGuard::checkCloud(const pcl_uvol::Dataset& dataset, const Work& work)
+MemoryGuard::checkCloud(const pcl_uvol::Dataset& dataset, const Bytes& bytes)
 {
   const auto points = static_cast<double>(dataset.cloud.width) *
                       static_cast<double>(dataset.cloud.height);
   const auto step = static_cast<double>(dataset.cloud.point_step);
-  pcl_uvol::MemoryForecast forecast(base_);
   // Rows that were left out leave their room.
-  forecast.hold(static_cast<double>(dataset.cloud.data.capacity()));
-  work(points, step, forecast);
+  const auto held = static_cast<double>(dataset.cloud.data.capacity());
   // What reading took is known by now.
-  forecast_ = std::max(addScattered(forecast, base_),
+  forecast_ = std::max(base_ + addScattered(held + bytes(points, step)),
                        static_cast<double>(pcl_uvol::peakMemory()));
   check(points);
 }
@@ -89,6 +83,12 @@ MemoryGuard::check(double points) const
   subject << task_ << " of " << static_cast<std::uint64_t>(points) << " points";
   pcl_uvol::checkMemory(
       subject.str(), forecast_, static_cast<double>(pcl_uvol::residentMemory()));
+}
+
+double
+derivativeBytes(const std::string& expression, double points)
+{
+  return pcl_uvol::mayHaveDerivative(expression) ? derivative_bytes * points : 0.0;
 }
 
 } // namespace uvol_tools

@@ -2,7 +2,6 @@
 // The forecast of a tool's memory: against what is there, and beside what it came to.
 #pragma once
 
-#include "common/memory.h"
 #include "shared/facts.h"
 #include <pcl_uvol/io/dataset.h>
 
@@ -14,27 +13,26 @@ namespace uvol_tools {
 /** \brief Refuses a run whose memory is short before it begins. */
 class MemoryGuard {
 public:
-  /** \brief Adds what a tool does with points, which the forecast holds already, to it.
-   * \param point_step bytes of one of them */
-  using Work = std::function<void(
-      double points, double point_step, pcl_uvol::MemoryForecast& forecast)>;
+  /** \brief Bytes that a tool takes at its peak besides points, by their number and the
+   * bytes of one. */
+  using Bytes = std::function<double(double points, double point_step)>;
 
   /** \param task as in "Extracting isosurfaces"
    * What is resident now counts as held: to be made before anything is read. */
   explicit MemoryGuard(std::string task);
 
   /** \brief Check what the header of a file tells, before the file is read.
-   * \param work empty if only reading tells how many points are left
-   * \throws InvalidArgument with both figures if more is needed than is available */
+   * \param bytes empty if only reading tells how many points are left
+   * \throws NotEnoughMemory with both figures if more is needed than is available */
   void
   checkFile(const std::string& path,
-            const Work& work,
+            const Bytes& bytes,
             const pcl_uvol::LoadOptions& options = {});
 
   /** \brief Check the points that were read.
-   * \throws InvalidArgument the same */
+   * \throws NotEnoughMemory the same */
   void
-  checkCloud(const pcl_uvol::Dataset& dataset, const Work& work);
+  checkCloud(const pcl_uvol::Dataset& dataset, const Bytes& bytes);
 
   /** \brief The last forecast beside the peak so far. */
   Fact
@@ -47,5 +45,13 @@ private:
   std::string task_;
   double base_, forecast_ = 0.0;
 };
+
+/** \brief Bytes per point of derivatives of three fields, with what goes in and comes
+ * out (measured, see tests/tools/test_memory_forecast.cpp). */
+constexpr double derivative_bytes = 160.0;
+
+/** \brief Bytes of the derivatives of an expression, 0 if it has none. */
+double
+derivativeBytes(const std::string& expression, double points);
 
 } // namespace uvol_tools

@@ -252,6 +252,19 @@ Options::number(const std::string& name,
 }
 
 Options&
+Options::automatic(const std::string& name,
+                   std::optional<double>& target,
+                   double low,
+                   double high,
+                   const std::string& help)
+{
+  const auto assign = [name, low, high, &target](const std::string& value) {
+    target = parseAutomatic(name, value, low, high);
+  };
+  return add({name, "number|auto", help + " (default auto)", assign});
+}
+
+Options&
 Options::integer(const std::string& name,
                  std::uint64_t& target,
                  std::uint64_t minimum,

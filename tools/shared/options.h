@@ -15,6 +15,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace uvol_tools {
@@ -135,6 +136,40 @@ public:
           std::vector<double>& target,
           const std::string& help);
 
+  /** \brief A number from low to high, or the word auto for none. */
+  Options&
+  automatic(const std::string& name,
+            std::optional<double>& target,
+            double low,
+            double high,
+            const std::string& help);
+  /** \brief Options for some members of a struct, named and explained as its list of
+   * members says.
+   * \param names of these members, in the order of -h
+   * \param before their help, as in "with -smooth: " */
+  template <typename Parameters>
+  Options&
+  members(Parameters& parameters,
+          const std::vector<std::string>& names,
+          const std::string& before = "")
+  {
+    for (const std::string& name : names) {
+      bool is_found = false;
+      pcl_uvol::forEachDescribed<Parameters>([&](const auto& member) {
+        if (member.name != name)
+          return;
+        is_found = true;
+        addMember(member.text.option ? member.text.option : member.name,
+                  parameters.*member.pointer,
+                  before + member.text.help,
+                  member.text);
+      });
+      if (!is_found)
+        throw std::logic_error("There is no member " + name + ".");
+    }
+    return *this;
+  }
+
   /** \brief What was declared last is seldom used: where all options take more than a
    * screen, -h only counts it below its heading; -h all and -h with the heading explain
    * it. */
@@ -220,6 +255,32 @@ private:
   /** \throws std::logic_error for a name that another option has */
   Options&
   add(Option option);
+
+  /** An option for a member of a struct, by its type. */
+  template <typename T>
+  void
+  addMember(const std::string& name,
+            T& target,
+            const std::string& help,
+            const pcl_uvol::MemberText& text)
+  {
+    if constexpr (std::is_enum_v<T>)
+      choice(name, target, help);
+    else if constexpr (std::is_same_v<T, std::optional<double>>)
+      automatic(name, target, text.low, text.high, help);
+    else if constexpr (std::is_same_v<T, double>)
+      number(name, target, text.low, text.high, help);
+    else if constexpr (std::is_same_v<T, bool>)
+      flag(name, target, help);
+    else if constexpr (std::is_same_v<T, std::uint64_t>) // which has a range
+      integer(name,
+              target,
+              static_cast<std::uint64_t>(text.low),
+              static_cast<std::uint64_t>(text.high),
+              help);
+    else
+      throw std::logic_error("-" + name + " has no type that an option can have.");
+  }
 
   Option&
   find(const std::string& argument);

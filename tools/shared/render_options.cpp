@@ -248,10 +248,8 @@ RenderOptions::drawCloud(const Options& options,
   return renderer.describeBackend();
 }
 
-void
-RenderOptions::addMemoryNeed(double points,
-                             std::size_t surfaces,
-                             pcl_uvol::MemoryForecast& forecast) const
+double
+RenderOptions::findBytes(double points, std::size_t surfaces) const
 {
   constexpr double layer_bytes = 8.0; // colour and depth
   constexpr double depth_bytes = 4.0; // of pixels that silhouettes are drawn from
@@ -259,12 +257,10 @@ RenderOptions::addMemoryNeed(double points,
   const double pixels = scale * getWidth() * scale * getHeight();
   const double layers = hasOpacities() ? static_cast<double>(surfaces) : 0.0;
   const double lines = settings_.silhouettes && scale > 1.0 ? depth_bytes : 0.0;
-  // At worst footprints of all points, and pixels.
-  forecast.run({((isFitted() ? fitted_pixel_bytes : full_pixel_bytes) + lines +
-                 layer_bytes * layers) *
-                        pixels +
-                    pcl_uvol::splatsNeed(points, 0.0, true).peak,
-                0.0});
+  return ((isFitted() ? fitted_pixel_bytes : full_pixel_bytes) + lines +
+          layer_bytes * layers) *
+             pixels +
+         pcl_uvol::footprintsBytes(points);
 }
 
 void

@@ -3,7 +3,6 @@
 // and every pass.
 #pragma once
 
-#include "common/memory.h"
 #include "shared/view_options.h"
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/render/image_space/image_space_renderer.h>
@@ -66,13 +65,11 @@ public:
             const std::string& output,
             pcl_uvol::Report& report) const;
 
-  /** \brief Add the memory of drawCloud() to a forecast that holds the surface.
+  /** \brief Bytes of drawCloud() beside the surface.
    * \param points of it
    * \param surfaces that it consists of, by isovalue */
-  void
-  addMemoryNeed(double points,
-                std::size_t surfaces,
-                pcl_uvol::MemoryForecast& forecast) const;
+  double
+  findBytes(double points, std::size_t surfaces) const;
 
   /** \brief Write a surface as a web page that turns in any browser.
    * \throws UsageError for what pages cannot show */

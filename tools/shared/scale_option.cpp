@@ -88,43 +88,40 @@ ScaleOption::finish(const Options& options)
 }
 
 Stretch
+ScaleOption::findStretch(const pcl_uvol::CloudView& cloud) const
+{
+  Stretch stretch = stretch_;
+  if (isFromSpacing())
+    stretch.scale = pcl_uvol::equalizingScale(
+        pcl_uvol::detail::StretchAxes(stretch.rotation).turn(cloud));
+  return stretch;
+}
+
+Stretch
 ScaleOption::resolve(const pcl_uvol::CloudView& cloud,
                      const std::string& field,
                      unsigned threads,
                      pcl_uvol::Report& report,
                      Facts& facts) const
 {
-  Stretch stretch = stretch_;
-  if (isGiven())
-    facts = describe(stretch);
+  Stretch stretch = findStretch(cloud);
+  std::optional<pcl_uvol::ScaleChoice> choice;
   if (isFromField()) {
     pcl::Indices all(cloud.count);
     std::iota(all.begin(), all.end(), 0);
-    const auto choice =
+    choice =
         pcl_uvol::chooseScale(cloud, all, field, stretch.rotation, threads, report);
-    stretch.scale = choice.scale;
-    facts = describe(stretch);
-    facts.push_back(describe(choice));
+    stretch.scale = choice->scale;
   }
-  if (isFromSpacing()) {
-    stretch.scale = pcl_uvol::equalizingScale(
-        pcl_uvol::detail::StretchAxes(stretch.rotation).turn(cloud));
-    facts = describe(stretch);
-  }
+  if (isGiven())
+    facts = describe(stretch, choice);
   return stretch;
 }
 
-Facts
-describe(const Stretch& stretch)
-{
-  Facts facts = {{"scale", toNumbers(stretch.scale)}};
-  if ((stretch.rotation != 0.0).any())
-    facts.emplace_back("rotation", toNumbers(stretch.rotation));
-  return facts;
-}
+namespace {
 
 Fact
-describe(const pcl_uvol::ScaleChoice& choice)
+describeChoice(const pcl_uvol::ScaleChoice& choice)
 {
   FactText text;
   text.precision(2);
@@ -143,6 +140,19 @@ describe(const pcl_uvol::ScaleChoice& choice)
                         {"tested", {static_cast<double>(choice.tested)}},
                         {"explained", {choice.explained}},
                         {"explained_before", {choice.explained_before}}}};
+}
+
+} // namespace
+
+Facts
+describe(const Stretch& stretch, const std::optional<pcl_uvol::ScaleChoice>& choice)
+{
+  Facts facts = {{"scale", toNumbers(stretch.scale)}};
+  if ((stretch.rotation != 0.0).any())
+    facts.emplace_back("rotation", toNumbers(stretch.rotation));
+  if (choice)
+    facts.push_back(describeChoice(*choice));
+  return facts;
 }
 
 } // namespace uvol_tools

@@ -59,6 +59,11 @@ public:
     return stretch_;
   }
 
+  /** \brief The stretch that does not depend on a field: as it was given, or by the
+   * spacing of samples. */
+  pcl_uvol::detail::Stretch
+  findStretch(const pcl_uvol::CloudView& cloud) const;
+
   /** \brief The stretch for some samples.
    * \param field of them; none is asked for unless isFromField()
    * \param facts tell of a scale that is given, and how it was found */
@@ -77,12 +82,10 @@ private:
   pcl_uvol::detail::Stretch stretch_;
 };
 
-/** \brief The factors along the axes, and these where they are turned. */
+/** \brief The factors along the axes, these where they are turned, and how factors were
+ * found from a field, if they were. */
 Facts
-describe(const pcl_uvol::detail::Stretch& stretch);
-
-/** \brief How the scale was found, and how sure it is. */
-Fact
-describe(const pcl_uvol::ScaleChoice& choice);
+describe(const pcl_uvol::detail::Stretch& stretch,
+         const std::optional<pcl_uvol::ScaleChoice>& choice = std::nullopt);
 
 } // namespace uvol_tools

@@ -5,7 +5,6 @@
 #include "common/numbers.h"
 #include "common/records.h"
 #include "expressions/formula.h"
-#include "expressions/memory_need.h"
 #include "render/camera_choice.h"
 #include "render/image_space/frame.h"
 #include "render/point_colors.h"
@@ -257,15 +256,6 @@ bool
 ViewOptions::hasColorOfSamples() const
 {
   return pcl_uvol::mayHaveDerivative(color_);
-}
-
-void
-ViewOptions::addColorNeed(double points,
-                          double& point_step,
-                          pcl_uvol::MemoryForecast& forecast) const
-{
-  if (hasColorOfSamples())
-    forecast.run(pcl_uvol::derivedFieldNeed(color_, points, point_step));
 }
 
 int

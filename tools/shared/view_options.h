@@ -3,7 +3,6 @@
 // size, background, colours and lights.
 #pragma once
 
-#include "common/memory.h"
 #include "render/camera_choice.h"
 #include "render/point_colors.h"
 #include "shared/color_options.h"
@@ -195,13 +194,6 @@ public:
   /** \brief True if -color can be computed from samples only. */
   bool
   hasColorOfSamples() const;
-
-  /** \brief Add the memory of addColorOfSamples to a forecast.
-   * \param point_step becomes that with the field */
-  void
-  addColorNeed(double points,
-               double& point_step,
-               pcl_uvol::MemoryForecast& forecast) const;
 
   /** \brief The field that colours the cloud; "" for one colour. */
   std::string

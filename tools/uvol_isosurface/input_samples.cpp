@@ -3,8 +3,9 @@
 
 #include "common/records.h"
 #include "common/scalar_field.h"
-#include "expressions/memory_need.h"
 #include "interpolation/outer_layer.h"
+#include "isosurface/memory_need.h"
+#include "pipeline/memory_need.h"
 #include "shared/point_files.h"
 #include <pcl_uvol/io/dataset.h>
 
@@ -37,15 +38,22 @@ addOuterLayer(const Options& options,
 
 } // namespace
 
-void
-addFieldsNeed(const PipelineOptions& arguments,
-              double points,
-              double& step,
-              pcl_uvol::MemoryForecast& forecast)
+MemoryGuard::Bytes
+forecastMemory(const PipelineOptions& arguments)
 {
-  forecast.run(
-      pcl_uvol::derivedFieldNeed(arguments.parameters.isosurface.field, points, step));
-  arguments.picture.addColorNeed(points, step, forecast);
+  return [&](double points, double step) {
+    const auto& parameters = arguments.parameters;
+    const std::size_t isovalues = parameters.isosurface.isovalues.size();
+    const double isopoints =
+        static_cast<double>(isovalues) * pcl_uvol::usualIsopoints(points);
+    const double deriving = arguments.picture.hasColorOfSamples()
+                                ? derivative_bytes * points
+                                : derivativeBytes(parameters.isosurface.field, points);
+    return std::max({deriving,
+                     arguments.density.findBytes(points),
+                     pcl_uvol::pipelineBytes(points, step, parameters) +
+                         arguments.picture.findBytes(isopoints, isovalues)});
+  };
 }
 
 void
@@ -68,12 +76,6 @@ loadSamples(const Options& options,
                                                      arguments.getWhere(),
                                                      options.threads()));
   report.count("points", samples->cloud.width + report.getCount("removed_by_where"));
-  memory.checkCloud(
-      *samples, [&](double points, double step, pcl_uvol::MemoryForecast& forecast) {
-        if (arguments.density.isAskedFor())
-          forecast.run(DensityOptions::getMemoryNeed(points, step));
-        addFieldsNeed(arguments, points, step, forecast);
-      });
   arguments.resolveSpacing(*samples);
   const auto sides = arguments.periodic.findSides(*samples, report);
   arguments.parameters.periodic = Eigen::Array3d(sides.data());
@@ -85,6 +87,7 @@ loadSamples(const Options& options,
     addOuterLayer(options, arguments, *samples, report);
   arguments.picture.addColorOfSamples(options, *samples, report, sides);
   checkOutput(arguments, *samples);
+  memory.checkCloud(*samples, forecastMemory(arguments));
   return samples;
 }
 

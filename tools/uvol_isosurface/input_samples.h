@@ -25,14 +25,9 @@ loadSamples(const Options& options,
             MemoryGuard& memory,
             pcl_uvol::Report& report);
 
-/** \brief Forecast the memory of fields that are computed first.
- *
- * \param step bytes of a point; becomes those with the fields */
-void
-addFieldsNeed(const PipelineOptions& arguments,
-              double points,
-              double& step,
-              pcl_uvol::MemoryForecast& forecast);
+/** \brief Bytes of a run in memory beside the samples. */
+MemoryGuard::Bytes
+forecastMemory(const PipelineOptions& arguments);
 
 /** \brief Check whether the output can hold the fields, before work whose result would
  * be lost.

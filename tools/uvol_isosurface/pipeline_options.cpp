@@ -49,15 +49,8 @@ PipelineOptions::declare(Options& options)
   options.flag("smooth",
                parameters.smooth,
                "smooth noisy or uneven samples by a level set first");
-  options
-      .text("mu",
-            "m|auto",
-            mu_,
-            "with -smooth: weight of the data against smoothness, 0 to 1; auto: "
-            "smooth as far as the expected deviation falls")
-      .rare();
-  options.integer("steps", steps_, 1, 1000000, "with -smooth: time steps at most")
-      .rare();
+  for (const char* const name : {"mu", "max_steps"})
+    options.members(parameters.level_set, {name}, "with -smooth: ").rare();
   options
       .choice("normals",
               parameters.normals,
@@ -212,8 +205,6 @@ PipelineOptions::finish(const Options& options)
     parameters.automatic_scale = true;
   parameters.isosurface.voronoi_cells = static_cast<std::uint32_t>(grid_);
   parameters.normal_neighbors = k_;
-  parameters.level_set.mu = parseAutomatic("mu", mu_, 0.0, 1.0);
-  parameters.level_set.max_steps = steps_;
   if (options.given("max-error")) {
     parameters.max_error = parseAutomatic(
         "max-error", max_error_, 0.0, std::numeric_limits<double>::infinity());

@@ -57,9 +57,8 @@ private:
   checkCombinations(const Options& options) const;
 
   MeshOptions mesh_;
-  std::string mu_ = "auto", max_error_, max_memory_, scratch_, validate_by_ = "random";
-  std::uint64_t grid_ = 0, k_ = parameters.normal_neighbors,
-                steps_ = parameters.level_set.max_steps;
+  std::string max_error_, max_memory_, scratch_, validate_by_ = "random";
+  std::uint64_t grid_ = 0, k_ = parameters.normal_neighbors;
 };
 
 } // namespace uvol_tools

@@ -5,7 +5,6 @@
 #include "io/point_stream.h"
 #include "pipeline/extract_out_of_core.h"
 #include "pipeline/gap_filling.h"
-#include "pipeline/memory_need.h"
 #include "shared/measure_table.h"
 #include "shared/point_files.h"
 #include "uvol_isosurface/input_samples.h"
@@ -69,15 +68,9 @@ runInMemory(const Options& options,
             Report& report,
             Facts& figures)
 {
-  const auto work =
-      [&](double points, double step, pcl_uvol::MemoryForecast& forecast) {
-        addFieldsNeed(arguments, points, step, forecast);
-        pcl_uvol::addMemoryNeed(arguments.parameters, points, step, {}, 0.0, forecast);
-      };
-  if (arguments.getWhere().empty())
-    memory.checkFile(arguments.input, work, arguments.makeLoadOptions());
-  else
-    memory.checkFile(arguments.input, nullptr, arguments.makeLoadOptions());
+  memory.checkFile(arguments.input,
+                   arguments.getWhere().empty() ? forecastMemory(arguments) : nullptr,
+                   arguments.makeLoadOptions());
   const auto samples = loadSamples(options, arguments, memory, report);
   const IsosurfacePipelineParameters& parameters = arguments.parameters;
   pcl_uvol::IsosurfacePipeline pipeline;
@@ -90,22 +83,6 @@ runInMemory(const Options& options,
   resolved.isosurface = pipeline.resolveParameters(&choice);
   resolved.automatic_scale = false; // it is filled in now
   pipeline.setParameters(resolved);
-  const pcl_uvol::CloudView view = pcl_uvol::viewOf(samples->cloud);
-  const auto sizes =
-      pcl_uvol::estimateSurfaces(view, resolved.isosurface, options.threads());
-  const double gap_nodes =
-      resolved.fill_gaps
-          ? pcl_uvol::detail::estimateGapNodes(samples, resolved, options.threads())
-          : 0.0;
-  memory.checkCloud(
-      *samples, [&](double points, double step, pcl_uvol::MemoryForecast& forecast) {
-        pcl_uvol::addMemoryNeed(parameters, points, step, sizes, gap_nodes, forecast);
-        double isopoints = 0.0;
-        for (const pcl_uvol::SurfaceSize& size : sizes)
-          isopoints += size.isopoints;
-        arguments.picture.addMemoryNeed(
-            isopoints, arguments.parameters.isosurface.isovalues.size(), forecast);
-      });
   IsosurfaceResult result = pipeline.run();
   result.scale_choice = choice;
   if ((resolved.periodic > 0.0).any()) {

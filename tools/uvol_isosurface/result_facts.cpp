@@ -162,9 +162,7 @@ describeSurface(const pcl_uvol::IsosurfaceResult& result,
       {"isovalues", joined(isovalues), isovalues},
       {"isopoints per isovalue", toNumbers(result.isopoints)},
   };
-  append(facts, describe(pcl_uvol::detail::Stretch{result.scale, parameters.rotation}));
-  if (result.scale_choice)
-    facts.push_back(describe(*result.scale_choice));
+  append(facts, describe({result.scale, parameters.rotation}, result.scale_choice));
   facts.emplace_back("interpolation", toWord(parameters.isosurface.interpolation));
   facts.push_back(describeErrors(result.errors));
   if (result.sampling)

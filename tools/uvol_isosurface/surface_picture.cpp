@@ -81,15 +81,6 @@ SurfacePicture::hasColorOfSamples() const
   return isAskedFor() && look_.hasColorOfSamples();
 }
 
-void
-SurfacePicture::addColorNeed(double points,
-                             double& point_step,
-                             pcl_uvol::MemoryForecast& forecast) const
-{
-  if (isAskedFor())
-    look_.addColorNeed(points, point_step, forecast);
-}
-
 std::string
 SurfacePicture::draw(const Options& options,
                      const pcl_uvol::Dataset& surface,
@@ -114,17 +105,13 @@ SurfacePicture::draw(const Options& options,
   return backend;
 }
 
-void
-SurfacePicture::addMemoryNeed(double points,
-                              std::size_t surfaces,
-                              pcl_uvol::MemoryForecast& forecast) const
+double
+SurfacePicture::findBytes(double points, std::size_t surfaces) const
 {
   if (path_.empty())
-    return;
-  if (is_ray_traced_) // at worst a splat per point
-    forecast.run(pcl_uvol::splatsNeed(points, points, true));
-  else
-    look_.addMemoryNeed(points, surfaces, forecast);
+    return 0.0;
+  return is_ray_traced_ ? pcl_uvol::splatsBytes(points)
+                        : look_.findBytes(points, surfaces);
 }
 
 } // namespace uvol_tools

@@ -2,7 +2,6 @@
 // The picture that a tool draws of the surface it has made.
 #pragma once
 
-#include "common/memory.h"
 #include "shared/ray_options.h"
 #include "shared/render_options.h"
 #include <pcl_uvol/io/dataset.h>
@@ -41,10 +40,6 @@ public:
            pcl_uvol::Report& report);
   bool
   hasColorOfSamples() const;
-  void
-  addColorNeed(double points,
-               double& point_step,
-               pcl_uvol::MemoryForecast& forecast) const;
   /** @} */
 
   /** \brief Draw it; a surface without points leaves no picture, with a warning.
@@ -62,12 +57,10 @@ public:
     return look_;
   }
 
-  /** \brief Add the memory of a picture of that many points to a forecast.
+  /** \brief Bytes of a picture of that many points.
    * \param surfaces number of isovalues */
-  void
-  addMemoryNeed(double points,
-                std::size_t surfaces,
-                pcl_uvol::MemoryForecast& forecast) const;
+  double
+  findBytes(double points, std::size_t surfaces) const;
 
 private:
   std::string path_;

@@ -6,7 +6,7 @@
 #include "common/sample_checks.h"
 #include "common/scalar_field.h"
 #include "common/scalar_names.h"
-#include "expressions/memory_need.h"
+#include "shared/memory_guard.h"
 #include "shared/point_files.h"
 #include <pcl_uvol/common/cloud_view.h>
 
@@ -208,13 +208,10 @@ InterpolationOptions::resolve(const Options& options,
   return parameters;
 }
 
-void
-InterpolationOptions::addFieldsNeed(double points,
-                                    double& point_step,
-                                    pcl_uvol::MemoryForecast& forecast) const
+double
+InterpolationOptions::getDerivativeBytes(double points) const
 {
-  for (const std::string& name : parseNames("field", fields_))
-    forecast.run(pcl_uvol::derivedFieldNeed(name, points, point_step));
+  return derivativeBytes(fields_, points);
 }
 
 Folds

@@ -2,7 +2,6 @@
 // The model of a field between its samples, on the command line.
 #pragma once
 
-#include "common/memory.h"
 #include "shared/options.h"
 #include "shared/scale_option.h"
 #include <pcl_uvol/common/dataset.h>
@@ -37,12 +36,9 @@ public:
           pcl_uvol::Report& report,
           Facts& facts) const;
 
-  /** \brief Add the memory of these expressions to a forecast.
-   * \param point_step of the samples; becomes that with the fields */
-  void
-  addFieldsNeed(double points,
-                double& point_step,
-                pcl_uvol::MemoryForecast& forecast) const;
+  /** \brief See derivativeBytes(). */
+  double
+  getDerivativeBytes(double points) const;
 
   /** \brief After finish(), without fields and scale. */
   const pcl_uvol::InterpolationParameters&

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <tuple>
 #include <type_traits>
@@ -50,18 +51,35 @@ fromWord(const std::string& word, Enum& value)
   return false;
 }
 
+/** \brief What people are told of a member: help of tools, docstrings of Python. */
+struct MemberText {
+  /** A phrase: what it is, its unit, and what special values mean. Names of values are
+   * those of JSON. */
+  const char* help = "";
+  double low = -std::numeric_limits<double>::infinity(); ///< of numbers: the least
+  double high = std::numeric_limits<double>::infinity(); ///< and the largest one
+  const char* option = nullptr; ///< of tools, where it is not the member's name
+};
+
 /** \brief A member of a struct of parameters, which lists them all as
- * \code static auto listMembers() { return std::make_tuple(Member{"k", &Own::k}); }
+ * \code
+ * static auto listMembers() {
+ *   return std::make_tuple(Member{"k", &Own::k, {"nearest neighbours", 2, 10000}});
+ * }
  * \endcode */
 template <typename Parameters, typename T>
 struct Member {
   const char* name;
   T Parameters::*pointer;
+  MemberText text = {};
 };
 
-/** \brief Member{name, pointer} finds its types by itself. */
+/** \brief Member{name, pointer} finds its types by itself. @{ */
 template <typename Parameters, typename T>
 Member(const char*, T Parameters::*) -> Member<Parameters, T>;
+template <typename Parameters, typename T>
+Member(const char*, T Parameters::*, MemberText) -> Member<Parameters, T>;
+/** @} */
 
 /** \brief Call visit(name, pointer to member) for each of them.
  * \param visit called with a name and a pointer to a member */
@@ -70,6 +88,16 @@ void
 forEachMember(Visit&& visit)
 {
   std::apply([&](const auto&... member) { (visit(member.name, member.pointer), ...); },
+             Parameters::listMembers());
+}
+
+/** \brief The same with all that is known of a member.
+ * \param visit called with each Member */
+template <typename Parameters, typename Visit>
+void
+forEachDescribed(Visit&& visit)
+{
+  std::apply([&](const auto&... member) { (visit(member), ...); },
              Parameters::listMembers());
 }
 

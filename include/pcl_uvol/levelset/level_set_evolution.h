@@ -67,7 +67,7 @@ addPhi(const CloudView& cloud,
  * std::vector<float> phi;
  * evolution.evolve(phi);
  * \endcode
- * Memory: 60 bytes per sample and, per sample of the band, 616 for the stencil with the
+ * Memory: 44 bytes per sample and, per sample of the band, 616 for the stencil with the
  * quadratic scheme (288 linear) and 60.
  * \tparam PointT any registered point type with x, y, z, or pcl::PCLPointCloud2 */
 template <typename PointT>

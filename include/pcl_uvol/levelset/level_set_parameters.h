@@ -250,22 +250,68 @@ struct PCL_UVOL_EXPORTS LevelSetParameters {
   listMembers()
   {
     using Own = LevelSetParameters;
-    return std::make_tuple(Member{"field", &Own::field},
-                           Member{"isovalue", &Own::isovalue},
-                           Member{"mu", &Own::mu},
-                           Member{"scheme", &Own::scheme},
-                           Member{"flow", &Own::flow},
-                           Member{"bound", &Own::bound},
-                           Member{"integration", &Own::integration},
-                           Member{"reinitialization", &Own::reinitialization},
-                           Member{"initial", &Own::initial},
-                           Member{"outside", &Own::outside},
-                           Member{"scale", &Own::scale},
-                           Member{"rotation", &Own::rotation},
-                           Member{"k", &Own::k},
-                           Member{"max_steps", &Own::max_steps},
-                           Member{"tolerance", &Own::tolerance},
-                           Member{"band_width", &Own::band_width});
+    constexpr double none = std::numeric_limits<double>::infinity();
+    constexpr double above_zero = std::numeric_limits<double>::min();
+    return std::make_tuple(
+        Member{"field", &Own::field},
+        Member{"isovalue", &Own::isovalue},
+        Member{
+            "mu",
+            &Own::mu,
+            {"weight of the data against smoothness, 0 to 1; if it is chosen "
+             "automatically, the surface is smoothed as far as its expected deviation "
+             "falls (thesis 3.7)",
+             0.0,
+             1.0}},
+        Member{"scheme",
+               &Own::scheme,
+               {"degree of the local fits that derivatives come from; linear is the "
+                "thesis's and unstable on noise"}},
+        Member{"flow",
+               &Own::flow,
+               {"what smooths: mean is the mean curvature of the thesis (3.7), which "
+                "shrinks; relative is that less its local mean, which keeps radii"}},
+        Member{
+            "bound",
+            &Own::bound,
+            {"what bounds time steps: cfl is the distance to the nearest neighbour, as "
+             "in the thesis (3.5.1); stencil is by the weights of the neighbours"}},
+        Member{"integration",
+               &Own::integration,
+               {"whose time step is taken: asynchronous is each sample's own (thesis "
+                "3.5.2), synchronous is the smallest of all"}},
+        Member{
+            "reinitialization",
+            &Own::reinitialization,
+            {"what makes phi a distance again (thesis 3.4): distance to the isopoints, "
+             "the eikonal equation, or a diffusion term",
+             -none,
+             none,
+             "reinit"}},
+        Member{"initial", &Own::initial},
+        Member{"outside",
+               &Own::outside,
+               {"of a shape to start from: its outside is where values are so"}},
+        Member{"scale", &Own::scale},
+        Member{"rotation", &Own::rotation},
+        Member{"k",
+               &Own::k,
+               {"nearest neighbours of a fit; quadratic ones need 9", 3, 1000}},
+        Member{"max_steps",
+               &Own::max_steps,
+               {"time steps at most; a run that ends there warns", 1, 1e6, "steps"}},
+        Member{"tolerance",
+               &Own::tolerance,
+               {"end when the surface moves by less, in spacings per unit of time",
+                above_zero,
+                none}},
+        Member{"band_width",
+               &Own::band_width,
+               {"advance only samples so many spacings from the surface, at least 3; "
+                "0: all",
+                0.0,
+                none,
+                "band"}});
   }
 
   /** \return All parameters as an object of JSON. */

@@ -62,8 +62,8 @@ public:
   }
 
   /** \brief Run from the samples to the surface; getReport() is that of the result.
-   * \throws InvalidArgument without an input, for a field of names, as checkParameters,
-   * and as the stages do
+   * \throws InvalidArgument without an input, for a field of names, for more samples
+   * than memory has room for, as checkParameters, and as the stages do
    * \throws Diverged as LevelSetEvolution */
   IsosurfaceResult
   run();
@@ -76,9 +76,9 @@ public:
   IsosurfaceParameters
   resolveParameters(std::optional<ScaleChoice>* choice = nullptr) const;
 
-  /** \brief Bytes that run() will take at most besides its input, about, from some of
-   * the samples.
-   * \throws as resolveParameters() */
+  /** \brief Bytes that run() will take besides its input, about: enough for surfaces of
+   * usual size, such as spheres.
+   * \throws InvalidArgument without an input */
   double
   estimateMemory() const;
 

@@ -47,10 +47,11 @@ struct PCL_UVOL_EXPORTS SurfaceNormalParameters {
   listMembers()
   {
     using Own = SurfaceNormalParameters;
-    return std::make_tuple(Member{"k", &Own::k},
-                           Member{"scale", &Own::scale},
-                           Member{"rotation", &Own::rotation},
-                           Member{"view_point", &Own::view_point});
+    return std::make_tuple(
+        Member{"k", &Own::k, {"nearest neighbours besides the point", 2, 10000}},
+        Member{"scale", &Own::scale},
+        Member{"rotation", &Own::rotation},
+        Member{"view_point", &Own::view_point});
   }
 
   /** \return All parameters as an object of JSON. */

@@ -15,7 +15,7 @@ namespace py = pybind11;
 
 namespace {
 
-/** Samples with images, and what takes these away again. */
+/** Samples with images. */
 class ImagedSamples {
 public:
   ImagedSamples(const DatasetPtr& samples,
@@ -57,15 +57,6 @@ public:
     return toDict(report_);
   }
 
-  /** Leave of points, one for each sample and image, those of samples: once. */
-  DatasetPtr
-  dropImages(const Dataset& points)
-  {
-    auto own = std::make_shared<Dataset>(points);
-    box_->dropImages(*own);
-    return own;
-  }
-
 private:
   DatasetPtr samples_;
   std::unique_ptr<SamplesInBox> box_;
@@ -86,8 +77,7 @@ bindBoxes(py::module_& module)
       .def_property_readonly("samples", &ImagedSamples::getSamples)
       .def_property_readonly("own", &ImagedSamples::countOwn)
       .def_property_readonly("sides", &ImagedSamples::getSides)
-      .def_property_readonly("report", &ImagedSamples::getReport)
-      .def("drop_images", &ImagedSamples::dropImages);
+      .def_property_readonly("report", &ImagedSamples::getReport);
 }
 
 } // namespace pcl_uvol::python

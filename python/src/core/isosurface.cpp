@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The pipeline from samples to an isosurface, which keeps its tree.
-#include "common/memory.h"
 #include "core/bindings.h"
 #include "pipeline/gap_filling.h"
-#include "pipeline/memory_need.h"
 #include "shared/convert.h"
 #include "shared/interruptible.h"
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
@@ -19,17 +17,6 @@ namespace pcl_uvol::python {
 namespace py = pybind11;
 
 namespace {
-
-/** Edges of a sample across the isovalue, if its value jumps to and fro. */
-constexpr double most_edges = 6.0;
-
-void
-checkForecast(std::size_t points, double bytes)
-{
-  const auto taken = static_cast<double>(residentMemory());
-  checkMemory(
-      "An isosurface of " + std::to_string(points) + " points", taken + bytes, taken);
-}
 
 py::dict
 describe(const LevelSetSummary& summary)
@@ -174,28 +161,7 @@ private:
     pipeline_.setNumberOfThreads(threads);
     pipeline_.setProgressCallback(progress);
     checkParameters(pipeline_.getParameters());
-    checkNeed();
     return pipeline_.run();
-  }
-
-  /** Before work whose result would be lost. The sizes of surfaces are estimated, which
-   * takes time, only where the most that there may be does not fit. */
-  void
-  checkNeed() const
-  {
-    const auto points = static_cast<double>(samples_->cloud.width);
-    const IsosurfacePipelineParameters& parameters = pipeline_.getParameters();
-    const std::vector<SurfaceSize> most(parameters.isosurface.isovalues.size(),
-                                        {points, most_edges * points});
-    MemoryForecast forecast(0.0);
-    addMemoryNeed(parameters,
-                  points,
-                  samples_->cloud.point_step,
-                  most,
-                  static_cast<double>(detail::most_gap_nodes),
-                  forecast);
-    if (forecast.getPeak() > static_cast<double>(availableMemory()))
-      checkForecast(samples_->cloud.width, pipeline_.estimateMemory());
   }
 
   std::mutex mutex_;

@@ -1,22 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Level sets, and what is made of points on a surface.
+#include "common/parameter_description.h"
 #include "common/records.h"
-#include "common/scalar_field.h"
 #include "core/bindings.h"
 #include "core/run_stage.h"
-#include "pipeline/guessed_isopoints.h"
-#include "pipeline/zero_level.h"
+#include "pipeline/level_set_job.h"
 #include "render/gaussian_splats.h"
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
-#include <pcl_uvol/levelset/level_set_evolution.h>
 #include <pcl_uvol/surface/splat_generation.h>
 #include <pcl_uvol/surface/surface_normals.h>
 
-#include <algorithm>
 #include <array>
 #include <numeric>
 #include <pybind11/stl.h>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pcl_uvol::python {
@@ -43,53 +41,37 @@ describeSteps(const std::vector<LevelSetStep>& steps)
   return list;
 }
 
-/** The surface after some steps. */
-struct Snapshot {
-  std::size_t steps;
-  Dataset surface;
-};
-
-/** \param every steps between two snapshots; 0: there are none
+/** \param snapshots steps between two of them; 0: there are none
  * \param sides of the box that the samples repeat in, or 0
  * \return the samples with phi, steps and surface of each snapshot, and the report */
 py::tuple
 evolveLevelSet(const DatasetPtr& dataset,
-               std::size_t every,
+               std::size_t snapshots,
                const std::array<double, 3>& sides,
+               bool automatic_scale,
                const std::string& parameters,
                unsigned threads,
                const py::object& progress)
 {
-  LevelSetEvolution<Cloud> evolution;
-  Cloud cloud;
-  std::vector<Snapshot> snapshots;
-  py::dict report = runStage(evolution, dataset, parameters, threads, progress, [&] {
-    auto shifted = evolution.getParameters();
-    const Eigen::Array3d origin(dataset->origin.data());
-    shifted.initial.first -= origin;
-    if (shifted.initial.kind == InitialKind::Box)
-      shifted.initial.second -= origin;
-    if (shifted.field.empty())
-      shifted.field = ScalarField::defaultName(listNumberFields(*dataset));
-    evolution.setParameters(shifted);
-    evolution.setExamined(true);
-    evolution.setSnapshotCallback(
-        every, [&](const LevelSetSummary& so_far, const std::vector<float>& phi) {
-          snapshots.push_back(
-              {so_far.steps.size(),
-               extractSnapshot(
-                   *dataset, shifted, Eigen::Array3d(sides.data()), phi, threads)});
-        });
-    evolution.evolve(cloud);
+  const LevelSetRequest request{
+      LevelSetParameters::fromJson(parameters), sides, automatic_scale, snapshots};
+  SmoothedSamples smoothed;
+  std::vector<std::pair<std::size_t, Dataset>> surfaces;
+  runInterruptibly(progress, [&](const ProgressCallback& callback) {
+    smoothed = runLevelSet(
+        dataset,
+        nullptr,
+        request,
+        [&](auto steps, auto surface) {
+          surfaces.emplace_back(steps, std::move(surface));
+        },
+        threads,
+        callback);
   });
-  const bool is_periodic =
-      std::any_of(sides.begin(), sides.end(), [](double side) { return side > 0.0; });
-  if (!is_periodic)
-    if (const auto guesses =
-            tellSmoothedGuesses(evolution.getReport(), *evolution.getSampling()))
-      report["warnings"].cast<py::list>().append(toDict(*guesses));
-  const LevelSetSummary& summary = evolution.getSummary();
-  report["field"] = toText(evolution.getParameters().field);
+  py::dict report = toDict(smoothed.report);
+  report["parameters"] = toText(smoothed.taken.toJson());
+  const LevelSetSummary& summary = smoothed.summary;
+  report["field"] = toText(smoothed.taken.field);
   report["spacing"] = summary.spacing;
   report["noise"] = summary.noise;
   report["logarithmic"] = summary.logarithmic;
@@ -98,9 +80,9 @@ evolveLevelSet(const DatasetPtr& dataset,
   report["converged"] = summary.converged;
   report["steps"] = describeSteps(summary.steps);
   py::list found;
-  for (Snapshot& snapshot : snapshots)
-    found.append(py::make_tuple(snapshot.steps, share(std::move(snapshot.surface))));
-  return py::make_tuple(withCloud(*dataset, std::move(cloud)), found, report);
+  for (auto& [steps, surface] : surfaces)
+    found.append(py::make_tuple(steps, share(std::move(surface))));
+  return py::make_tuple(share(std::move(smoothed.samples)), found, report);
 }
 
 py::tuple
@@ -165,6 +147,8 @@ describeGaussians(const Dataset& splats, const std::string& color)
 void
 bindSurfaceStages(py::module_& module)
 {
+  module.def("describe_level_set", &writeDescription<LevelSetParameters>);
+  module.def("describe_normals", &writeDescription<SurfaceNormalParameters>);
   module.def("evolve_level_set", &evolveLevelSet);
   module.def("estimate_normals", &estimateNormals);
   module.def("make_gaussians", &describeGaussians);

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/level_set_job.h"
+
+#include "common/records.h"
+#include "common/sample_checks.h"
+#include "common/scalar_field.h"
+#include "common/stretch_axes.h"
+#include "neighbors/samples_in_box.h"
+#include "pipeline/guessed_isopoints.h"
+#include "pipeline/pipeline_input.h"
+#include "pipeline/zero_level.h"
+#include <pcl_uvol/levelset/level_set_evolution.h>
+
+#include <utility>
+
+namespace pcl_uvol {
+
+namespace {
+
+/** The same shape where coordinates count from an origin. */
+InitialFunction
+shift(InitialFunction initial, const std::array<double, 3>& origin)
+{
+  const Eigen::Array3d by(origin[0], origin[1], origin[2]);
+  initial.first -= by;
+  if (initial.kind == InitialKind::Box)
+    initial.second -= by;
+  return initial;
+}
+
+} // namespace
+
+void
+checkRequest(const LevelSetRequest& request)
+{
+  if (isPeriodic(request.periodic) &&
+      detail::StretchAxes(request.level_set.rotation).areTurned())
+    throw InvalidArgument("turned_periodic_box", {});
+}
+
+SmoothedSamples
+runLevelSet(const std::shared_ptr<const Dataset>& samples,
+            const pcl::IndicesPtr& use,
+            const LevelSetRequest& request,
+            const SurfaceCallback& tell_surface,
+            unsigned threads,
+            const ProgressCallback& progress)
+{
+  checkRequest(request);
+  SmoothedSamples result;
+  result.report.progress = progress;
+  LevelSetParameters& taken = result.taken;
+  taken = request.level_set;
+  if (taken.field.empty())
+    taken.field = ScalarField::defaultName(listNumberFields(*samples));
+  for (const std::string& field : {taken.field, taken.initial.field_name})
+    refuseNames(*samples, field);
+  if (request.automatic_scale) {
+    result.scale_choice = chooseScale(viewOf(samples->cloud),
+                                      listPoints({samples, use, {}}),
+                                      taken.field,
+                                      taken.rotation,
+                                      threads,
+                                      result.report);
+    taken.scale = result.scale_choice->scale;
+  }
+
+  std::shared_ptr<const Dataset> input = samples;
+  std::optional<SamplesInBox> boxed;
+  if (isPeriodic(request.periodic)) {
+    const auto imaged = std::make_shared<Dataset>(*samples);
+    boxed.emplace(*imaged, request.periodic, taken.scale, threads, result.report);
+    result.box = boxed->getBox();
+    input = imaged;
+  }
+  LevelSetParameters parameters = taken;
+  parameters.initial = shift(taken.initial, input->origin);
+
+  LevelSetEvolution<pcl::PCLPointCloud2> evolution;
+  evolution.setInputCloud({input, &input->cloud});
+  evolution.setIndices(use);
+  evolution.setParameters(parameters);
+  evolution.setExamined(true);
+  evolution.setNumberOfThreads(threads);
+  evolution.setProgressCallback(progress);
+  const Eigen::Array3d sides(request.periodic.data());
+  evolution.setSnapshotCallback(
+      request.snapshots,
+      [&](const LevelSetSummary& so_far, const std::vector<float>& phi) {
+        tell_surface(so_far.steps.size(),
+                     extractSnapshot(*input, parameters, sides, phi, threads));
+      });
+  result.samples = withoutCloud(*input);
+  evolution.evolve(result.samples.cloud);
+  if (boxed)
+    boxed->dropImages(result.samples);
+  result.report.merge(evolution.getReport());
+  result.summary = evolution.getSummary();
+  result.sampling = *evolution.getSampling();
+  if (!boxed) // most of what is examined there may be images
+    if (const auto guesses = tellSmoothedGuesses(result.report, result.sampling))
+      result.report.warnings.push_back(*guesses);
+  result.report.progress = nullptr; // which is the caller's
+  return result;
+}
+
+} // namespace pcl_uvol
