@@ -1,35 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/records.h"
-#include "common/sample_checks.h"
 #include "common/scalar_field.h"
 #include "common/stretch_axes.h"
 #include "distributed/fetch_points.h"
 #include "isosurface/edge_ends.h"
 #include "pipeline/extract_from_ranks.h"
-#include "pipeline/finish_isosurface.h"
 #include "pipeline/isopoint_choice.h"
-#include "pipeline/isopoint_filter.h"
+#include "pipeline/isosurface_run.h"
 #include "pipeline/part_in_box.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/map_projection.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
-#include <cstdint>
-#include <string>
+#include <memory>
+#include <optional>
 #include <utility>
-#include <vector>
 
 namespace pcl_uvol {
 
 namespace {
 
-using Isopoints = std::vector<std::vector<GlobalIsopoint>>;
-
 /** Refuses what needs samples of other processes. */
 void
 checkDistributed(const IsosurfacePipelineParameters& parameters)
 {
-  checkParameters(parameters);
   if (parameters.automatic_scale)
     throw InvalidArgument("distributed_scale", {});
   if (detail::StretchAxes(parameters.rotation).areTurned())
@@ -47,84 +40,93 @@ checkDistributed(const IsosurfacePipelineParameters& parameters)
     throw InvalidArgument("distributed_normals", {});
 }
 
-/** The isopoints of this process with the fields of the samples at their edges. */
-IsosurfaceResult
-finishIsopoints(const Isopoints& isopoints,
-                const PartInBox& part,
-                const IsosurfacePipelineParameters& parameters,
-                const SamplingSummary& sampling,
-                Communicator& communicator,
-                unsigned threads,
-                Report&& report)
-{
-  EdgeEnds ends = findEdgeEnds(isopoints);
-  SurfaceTriangles found;
-  found.edges = std::move(ends.edges);
-  for (std::size_t i = 0; i < isopoints.size(); ++i)
-    for (const GlobalIsopoint& isopoint : isopoints[i])
-      found.vertices.push_back(
-          toPointIso(isopoint, parameters.isosurface.isovalues[i]));
-  Dataset samples = withoutCloud(part.getPoints());
-  samples.cloud = fetchPoints(
-      part.getPoints().cloud, part.getFirstPoint(), ends.points, communicator, report);
-  samples.cloud.header = part.getPoints().cloud.header;
-  IsosurfaceResult result = finishIsosurface(samples,
-                                             std::move(found),
-                                             parameters,
-                                             sampling,
-                                             communicator,
-                                             threads,
-                                             std::move(report));
-  part.finish(communicator, result);
-  setGlobeFields(result.surface);
-  return result;
-}
+/** The samples of this process and, of those of others, the ones at edges of its part
+ * of the surface. */
+class SamplesOnRanks : public SampleStore {
+public:
+  /** \param is_gathered whether the first process gets the whole surface */
+  SamplesOnRanks(const std::shared_ptr<const Dataset>& part,
+                 Communicator& communicator,
+                 bool is_gathered,
+                 unsigned threads)
+      : given_(part)
+      , communicator_(communicator)
+      , is_gathered_(is_gathered)
+      , threads_(threads)
+  {
+  }
 
-/** The counts of all processes together. By all of them. */
-Report
-addCounts(const std::vector<std::string>& names,
-          const Report& report,
-          Communicator& communicator)
-{
-  std::vector<std::uint64_t> counts;
-  for (const std::string& name : names)
-    counts.push_back(report.getCount(name));
-  communicator.allReduce(counts);
-  Report together;
-  for (std::size_t i = 0; i < counts.size(); ++i)
-    together.setCount(names[i], counts[i]);
-  return together;
-}
+  void
+  enter(IsosurfacePipelineParameters& parameters, Report& report) override
+  {
+    checkDistributed(parameters);
+    parameters.normals = NormalMethod::Edge; // of isopoints that have none yet
+    findField(*given_, parameters);
+    // Isopoints around one may belong to other processes: none is put back to its edge,
+    // and the extraction leaves out contradicted ones.
+    interpolation_ = parameters.isosurface.interpolation;
+    if (interpolation_ == Interpolation::Auto)
+      parameters.isosurface.interpolation = Interpolation::Fit;
+    part_.emplace(given_, parameters, communicator_, threads_, report);
+  }
 
-/** Warn of samples that differ at one place, images among them as in one process. */
-void
-warnOfConflicts(Communicator& communicator, Report& report)
-{
-  const Report together =
-      addCounts({"samples", "conflicting_duplicates"}, report, communicator);
-  warnOfConflicts(together.getCount("conflicting_duplicates"),
-                  together.getCount("samples"),
-                  report);
-}
+  ExtractedSurface
+  extract(const IsosurfacePipelineParameters& parameters, Report& report) override
+  {
+    const Dataset& points = part_->getPoints();
+    const CloudView view = viewOf(points.cloud);
+    const ScalarField field(view.fields, parameters.isosurface.field);
+    const ValueFrame frame = findValueFrame(view, field, communicator_, threads_);
+    IsosurfaceParameters extraction = withErrors(parameters);
+    if (interpolation_ == Interpolation::Auto)
+      extraction.interpolation = Interpolation::Auto;
+    auto [isopoints, sampling] =
+        extractFromRanks(part_->readSamples(field, frame, threads_, report),
+                         extraction,
+                         frame,
+                         communicator_,
+                         threads_,
+                         report);
+    warnOfConflicts(communicator_, report);
+    if (is_gathered_)
+      isopoints = gatherIsopoints(std::move(isopoints), communicator_, threads_);
+    part_->numberByPoints(isopoints);
+    EdgeEnds ends = findEdgeEnds(isopoints);
+    ExtractedSurface surface;
+    surface.sampling = sampling;
+    surface.triangles.edges = std::move(ends.edges);
+    for (std::size_t i = 0; i < isopoints.size(); ++i)
+      for (const GlobalIsopoint& isopoint : isopoints[i])
+        surface.triangles.vertices.push_back(
+            toPointIso(isopoint, parameters.isosurface.isovalues[i]));
+    const auto samples = std::make_shared<Dataset>(withoutCloud(points));
+    samples->cloud = fetchPoints(
+        points.cloud, part_->getFirstPoint(), ends.points, communicator_, report);
+    samples->cloud.header = points.cloud.header;
+    surface.samples = samples;
+    return surface;
+  }
 
-/** Warn of what only the counts of all processes tell: each says the same. */
-void
-warnOfLosses(const IsosurfacePipelineParameters& parameters,
-             Communicator& communicator,
-             Report& report)
-{
-  Report together = addCounts({"crossing_samples",
-                               "spikes",
-                               "contradicted",
-                               "removed_by_error",
-                               "removed_bridged",
-                               "isopoints"},
-                              report,
-                              communicator);
-  warnOfLosses(parameters, together.getCount("isopoints"), together);
-  for (Message& warning : together.warnings)
-    report.warnings.push_back(std::move(warning));
-}
+  Communicator&
+  getCommunicator() override
+  {
+    return communicator_;
+  }
+
+  void
+  leave(const IsosurfacePipelineParameters&, IsosurfaceResult& result) override
+  {
+    part_->finish(communicator_, result);
+  }
+
+private:
+  const std::shared_ptr<const Dataset>& given_;
+  Communicator& communicator_;
+  bool is_gathered_;
+  unsigned threads_;
+  std::optional<PartInBox> part_;
+  Interpolation interpolation_ = Interpolation::Auto; ///< as asked for
+};
 
 } // namespace
 
@@ -133,43 +135,10 @@ DistributedIsosurfacePipeline::run()
 {
   if (!part_)
     throw InvalidArgument("distributed_without_input", {});
-  checkDistributed(parameters_);
   startReport();
-  IsosurfacePipelineParameters parameters = parameters_;
-  parameters.normals = NormalMethod::Edge; // of isopoints that have none yet
-  IsosurfaceParameters& isosurface = parameters.isosurface;
-  // Isopoints around one may belong to other processes: none is put back to its edge.
-  if (isosurface.interpolation == Interpolation::Auto)
-    isosurface.interpolation = Interpolation::Fit;
-  if (isosurface.field.empty())
-    isosurface.field = ScalarField::defaultName(listNumberFields(*part_));
-  refuseNames(*part_, isosurface.field);
-  const PartInBox part(part_, parameters, communicator_, threads_, report_);
-  const CloudView view = viewOf(part.getPoints().cloud);
-  const ScalarField field(view.fields, isosurface.field);
-  const ValueFrame frame = findValueFrame(view, field, communicator_, threads_);
-  IsosurfaceParameters extraction = withErrors(parameters);
-  if (parameters_.isosurface.interpolation == Interpolation::Auto)
-    extraction.interpolation = Interpolation::Auto; // without contradicted ones
-  auto [isopoints, sampling] =
-      extractFromRanks(part.readSamples(field, frame, threads_, report_),
-                       extraction,
-                       frame,
-                       communicator_,
-                       threads_,
-                       report_);
-  warnOfConflicts(communicator_, report_);
-  if (is_gathered_)
-    isopoints = gatherIsopoints(std::move(isopoints), communicator_, threads_);
-  part.numberByPoints(isopoints);
-  IsosurfaceResult result = finishIsopoints(isopoints,
-                                            part,
-                                            parameters,
-                                            sampling,
-                                            communicator_,
-                                            threads_,
-                                            std::move(report_));
-  warnOfLosses(parameters, communicator_, result.report);
+  SamplesOnRanks samples(part_, communicator_, is_gathered_, threads_);
+  IsosurfaceResult result =
+      runIsosurface(samples, parameters_, threads_, std::move(report_));
   report_ = result.report;
   return result;
 }

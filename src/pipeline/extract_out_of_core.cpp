@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/extract_out_of_core.h"
 
-#include "common/records.h"
-#include "common/sample_checks.h"
 #include "common/scalar_field.h"
 #include "common/stretch_axes.h"
 #include "isosurface/edge_ends.h"
 #include "neighbors/sampling.h"
-#include "pipeline/finish_isosurface.h"
 #include "pipeline/isopoint_choice.h"
-#include "pipeline/isopoint_filter.h"
+#include "pipeline/isosurface_run.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/map_projection.h>
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 namespace pcl_uvol {
@@ -115,45 +112,74 @@ extractOutOfCore(PointSource& points,
   return surface;
 }
 
+namespace {
+
+/** Samples on disk, of which those at the edges of the surface are read again. */
+class SamplesOnDisk : public SampleStore {
+public:
+  SamplesOnDisk(PointSource& points, const OutOfCoreSettings& settings)
+      : points_(points)
+      , settings_(settings)
+  {
+  }
+
+  void
+  enter(IsosurfacePipelineParameters& parameters, Report&) override
+  {
+    if (parameters.smooth || parameters.automatic_scale || parameters.mesh ||
+        parameters.fill_gaps || parameters.validation.folds > 0 ||
+        (parameters.periodic > 0.0).any() ||
+        detail::StretchAxes(parameters.rotation).areTurned() ||
+        parameters.isosurface.neighbors != NeighborSource::KdTree)
+      throw InvalidArgument("not_out_of_core", {});
+    findField(points_.getHeader(), parameters);
+  }
+
+  ExtractedSurface
+  extract(const IsosurfacePipelineParameters& parameters, Report& report) override
+  {
+    OutOfCoreIsosurface found =
+        extractOutOfCore(points_, withErrors(parameters), settings_, report);
+    warnOfConflicts(alone_, report);
+    const auto samples = std::make_shared<Dataset>(points_.getHeader());
+    samples->cloud = std::move(found.samples);
+    ExtractedSurface surface;
+    surface.samples = samples;
+    surface.triangles.vertices = std::move(found.isopoints);
+    surface.triangles.edges = std::move(found.edges);
+    surface.sampling = found.sampling;
+    return surface;
+  }
+
+  Communicator&
+  getCommunicator() override
+  {
+    return alone_;
+  }
+
+  void
+  leave(const IsosurfacePipelineParameters&, IsosurfaceResult&) override
+  {
+  }
+
+private:
+  PointSource& points_;
+  const OutOfCoreSettings& settings_;
+  SelfCommunicator alone_;
+};
+
+} // namespace
+
 IsosurfaceResult
 runPipelineOutOfCore(PointSource& points,
                      const IsosurfacePipelineParameters& parameters,
                      const OutOfCoreSettings& out_of_core,
                      const ProgressCallback& progress)
 {
-  checkParameters(parameters);
-  if (parameters.smooth || parameters.automatic_scale || parameters.mesh ||
-      parameters.fill_gaps || parameters.validation.folds > 0 ||
-      (parameters.periodic > 0.0).any() ||
-      detail::StretchAxes(parameters.rotation).areTurned() ||
-      parameters.isosurface.neighbors != NeighborSource::KdTree)
-    throw InvalidArgument("not_out_of_core", {});
-  Dataset samples = points.getHeader();
-  IsosurfacePipelineParameters resolved = parameters;
-  if (resolved.isosurface.field.empty())
-    resolved.isosurface.field = ScalarField::defaultName(listNumberFields(samples));
-  refuseNames(samples, resolved.isosurface.field);
   Report report;
   report.progress = progress;
-  auto surface = extractOutOfCore(points, withErrors(resolved), out_of_core, report);
-  samples.cloud = std::move(surface.samples);
-  SurfaceTriangles found;
-  found.vertices = std::move(surface.isopoints);
-  found.edges = std::move(surface.edges);
-  SelfCommunicator alone;
-  IsosurfaceResult result = finishIsosurface(samples,
-                                             std::move(found),
-                                             resolved,
-                                             surface.sampling,
-                                             alone,
-                                             out_of_core.threads,
-                                             std::move(report));
-  setGlobeFields(result.surface);
-  warnOfConflicts(result.report.getCount("conflicting_duplicates"),
-                  result.report.getCount("samples"),
-                  result.report);
-  warnOfLosses(resolved, result.surface.cloud.width, result.report);
-  return result;
+  SamplesOnDisk samples(points, out_of_core);
+  return runIsosurface(samples, parameters, out_of_core.threads, std::move(report));
 }
 
 } // namespace pcl_uvol

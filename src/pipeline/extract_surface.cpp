@@ -156,6 +156,7 @@ extractSurface(const PipelineInput& input,
                              threads);
   };
   ExtractedSurface surface;
+  surface.samples = input.samples;
   std::optional<SamplingSummary> known = sampling;
   if (!known && parameters.mesh && !parameters.smooth)
     known = summarize(); // before the mesh takes the memory for it

@@ -8,6 +8,7 @@
 #include <pcl_uvol/mesh/surface_mesh.h>
 #include <pcl_uvol/neighbors/neighbor_graph.h>
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -15,6 +16,7 @@ namespace pcl_uvol {
 
 /** \brief Isopoints, which are vertices without triangles, or a mesh. */
 struct ExtractedSurface {
+  std::shared_ptr<const Dataset> samples; ///< that edges have the indices of
   SurfaceTriangles triangles;
   std::vector<LevelSetSummary> level_sets; ///< with `smooth`: one per isovalue
   SamplingSummary sampling;

@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/memory.h"
-#include "common/records.h"
-#include "common/sample_checks.h"
-#include "common/scalar_field.h"
 #include "pipeline/extract_surface.h"
-#include "pipeline/finish_isosurface.h"
 #include "pipeline/gap_filling.h"
 #include "pipeline/hold_out.h"
-#include "pipeline/isopoint_filter.h"
+#include "pipeline/isosurface_run.h"
 #include "pipeline/memory_need.h"
 #include "pipeline/periodic_surface.h"
 #include "pipeline/pipeline_input.h"
 #include "pipeline/turned_axes.h"
-#include <pcl_uvol/common/map_projection.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
 #include <utility>
@@ -28,21 +23,19 @@ resolve(const PipelineInput& input,
         unsigned threads,
         std::optional<ScaleChoice>& choice)
 {
-  IsosurfaceParameters parameters = input.parameters.isosurface;
-  if (parameters.field.empty())
-    parameters.field = ScalarField::defaultName(listNumberFields(*input.samples));
-  refuseNames(*input.samples, parameters.field);
-  if (!input.parameters.automatic_scale)
-    return parameters;
+  IsosurfacePipelineParameters parameters = input.parameters;
+  findField(*input.samples, parameters);
+  if (!parameters.automatic_scale)
+    return parameters.isosurface;
   Report own;
   choice = chooseScale(viewOf(input.samples->cloud),
                        listPoints(input),
-                       parameters.field,
-                       input.parameters.rotation,
+                       parameters.isosurface.field,
+                       parameters.rotation,
                        threads,
                        own);
-  parameters.scale = choice->scale;
-  return parameters;
+  parameters.isosurface.scale = choice->scale;
+  return parameters.isosurface;
 }
 
 /** What a pipeline works on before the first step. */
@@ -72,6 +65,95 @@ extractParts(const PipelineInput& input, unsigned threads)
     return pipeline.run();
   };
 }
+
+/** All samples in memory: their axes may be turned, their gaps filled and their box
+ * repeat, and some may be left out to test the surface of the others. */
+class SamplesInMemory : public SampleStore {
+public:
+  /** \param extraction of these samples, whose tree serves again */
+  SamplesInMemory(PipelineInput&& input,
+                  IsosurfaceExtraction<pcl::PCLPointCloud2>& extraction,
+                  unsigned threads)
+      : given_(input.samples)
+      , input_(std::move(input))
+      , extraction_(extraction)
+      , threads_(threads)
+  {
+  }
+
+  void
+  enter(IsosurfacePipelineParameters& parameters, Report& report) override
+  {
+    axes_.emplace(input_);
+    input_.parameters.isosurface = resolve(input_, threads_, scale_choice_);
+    const ValidationParameters& validation = input_.parameters.validation;
+    if (validation.folds > 0) // a field that is none fails early
+      folds_ = makeFolds(viewOf(input_.samples->cloud), validation, threads_);
+    measured_ = input_;
+    if (input_.parameters.fill_gaps)
+      gaps_ = std::make_unique<detail::FilledGaps>(input_, threads_, report);
+    box_.emplace(input_, threads_, report);
+    parameters = input_.parameters;
+  }
+
+  ExtractedSurface
+  extract(const IsosurfacePipelineParameters&, Report& report) override
+  {
+    std::optional<SamplingSummary> sampling;
+    if (gaps_)
+      sampling = gaps_->getSampling();
+    if (input_.samples == given_)
+      return extractSurface(input_, extraction_, sampling, threads_, report);
+    IsosurfaceExtraction<pcl::PCLPointCloud2> other;
+    other.setInputCloud(shareCloud(input_));
+    other.setIndices(input_.use);
+    return extractSurface(input_, other, sampling, threads_, report);
+  }
+
+  Communicator&
+  getCommunicator() override
+  {
+    return alone_;
+  }
+
+  const detail::FilledGaps*
+  getGaps() const override
+  {
+    return gaps_.get();
+  }
+
+  void
+  leave(const IsosurfacePipelineParameters& parameters,
+        IsosurfaceResult& result) override
+  {
+    result.scale_choice = scale_choice_;
+    box_->leave(parameters, result);
+    if (gaps_)
+      result.gaps = gaps_->getSummary();
+    if (folds_) {
+      result.validation = scoreHeldOut(measured_,
+                                       *folds_,
+                                       extractParts(measured_, threads_),
+                                       threads_,
+                                       result.report);
+      warnOfScores(
+          result.validation, measured_.parameters, result.sampling, result.report);
+    }
+    axes_->leave(result);
+  }
+
+private:
+  const std::shared_ptr<const Dataset> given_;
+  PipelineInput input_, measured_; ///< now, and before gaps were filled
+  IsosurfaceExtraction<pcl::PCLPointCloud2>& extraction_;
+  unsigned threads_;
+  SelfCommunicator alone_;
+  std::optional<TurnedAxes> axes_;
+  std::optional<ScaleChoice> scale_choice_;
+  std::optional<Folds> folds_;
+  std::unique_ptr<detail::FilledGaps> gaps_;
+  std::optional<RepeatedBox> box_;
+};
 
 } // namespace
 
@@ -112,61 +194,13 @@ IsosurfacePipeline::estimateMemory() const
 IsosurfaceResult
 IsosurfacePipeline::run()
 {
-  checkParameters(parameters_);
-  startReport();
   PipelineInput input = takeInput(samples_, indices_, parameters_);
+  checkParameters(parameters_);
   checkMemoryOf("An isosurface", countPoints(input), estimateMemory());
-  std::optional<ScaleChoice> scale_choice;
-  std::optional<SamplingSummary> sampling;
-  std::unique_ptr<detail::FilledGaps> gaps;
-
-  const TurnedAxes axes(input);
-  input.parameters.isosurface = resolve(input, threads_, scale_choice);
-  const ValidationParameters& validation = parameters_.validation;
-  std::optional<Folds> folds; // a field that is none fails early
-  if (validation.folds > 0)
-    folds = makeFolds(viewOf(input.samples->cloud), validation, threads_);
-  const PipelineInput measured = input;
-  if (parameters_.fill_gaps) {
-    gaps = std::make_unique<detail::FilledGaps>(input, threads_, report_);
-    sampling = gaps->getSampling();
-  }
-  const RepeatedBox box(input, threads_, report_);
-
-  ExtractedSurface surface;
-  if (input.samples == samples_)
-    surface = extractSurface(input, extraction_, sampling, threads_, report_);
-  else {
-    IsosurfaceExtraction<pcl::PCLPointCloud2> other;
-    other.setInputCloud(shareCloud(input));
-    other.setIndices(input.use);
-    surface = extractSurface(input, other, sampling, threads_, report_);
-  }
-  SelfCommunicator alone;
-  IsosurfaceResult result = finishIsosurface(*input.samples,
-                                             std::move(surface.triangles),
-                                             input.parameters,
-                                             surface.sampling,
-                                             alone,
-                                             threads_,
-                                             std::move(report_),
-                                             SurfaceRole::Isosurface,
-                                             gaps.get());
-  warnOfLosses(input.parameters, result.surface.cloud.width, result.report);
-  result.level_sets = std::move(surface.level_sets);
-  result.scale_choice = scale_choice;
-
-  box.leave(input.parameters, result);
-  if (gaps)
-    result.gaps = gaps->getSummary();
-  if (folds) {
-    result.validation = scoreHeldOut(
-        measured, *folds, extractParts(measured, threads_), threads_, result.report);
-    warnOfScores(
-        result.validation, measured.parameters, result.sampling, result.report);
-  }
-  axes.leave(result);
-  setGlobeFields(result.surface);
+  startReport();
+  SamplesInMemory samples(std::move(input), extraction_, threads_);
+  IsosurfaceResult result =
+      runIsosurface(samples, parameters_, threads_, std::move(report_));
   report_ = result.report;
   return result;
 }
