@@ -263,7 +263,9 @@ TEST_F(ProbeTool, VariogramsAreToldWrittenAndDrawn)
             (Json{{"kind", "exponential"},
                   {"nugget", 0.5},
                   {"sill", 2.0},
-                  {"range", given["wave"]["range"]}}));
+                  {"range", given["wave"]["range"]},
+                  {"pairs", given["wave"]["pairs"]}}));
+  EXPECT_GT(given["wave"]["pairs"], 10000);
   EXPECT_NEAR(given["wave"]["range"], 0.25, 1e-12);
   EXPECT_EQ(given.size(), 2u);
   std::istringstream table(readFile(folder_ / "v.csv"));

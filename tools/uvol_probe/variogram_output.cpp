@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
 #include <numeric>
 #include <sstream>
@@ -79,17 +80,23 @@ makeProfile(const FittedVariogram& variogram,
   return profile;
 }
 
+/** How many pairs of samples the model was fitted to. */
+double
+countPairs(const FittedVariogram& variogram)
+{
+  const std::vector<double>& pairs = variogram.empirical.all.pairs;
+  return std::round(std::accumulate(pairs.begin(), pairs.end(), 0.0));
+}
+
 std::string
 describe(const FittedVariogram& variogram)
 {
   const Variogram& model = variogram.model;
-  const std::vector<double>& pairs = variogram.empirical.all.pairs;
   FactText text;
   text.precision(4);
   text << toWord(model.kind) << ", nugget " << model.nugget << ", partial sill "
        << model.sill << ", range " << model.range << ", from "
-       << std::llround(std::accumulate(pairs.begin(), pairs.end(), 0.0))
-       << " pairs of samples";
+       << static_cast<std::uint64_t>(countPairs(variogram)) << " pairs of samples";
   return text.str();
 }
 
@@ -154,7 +161,8 @@ VariogramOutput::write(const pcl_uvol::detail::FieldInterpolator& interpolator,
                            Facts{{"kind", toWord(model.kind)},
                                  {"nugget", model.nugget},
                                  {"sill", model.sill},
-                                 {"range", model.range}});
+                                 {"range", model.range},
+                                 {"pairs", countPairs(*variogram)}});
     if (field > 0)
       continue;
     if (!table_.empty())
