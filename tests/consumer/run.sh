@@ -6,7 +6,7 @@ source_dir=$(cd "$(dirname "$0")" && pwd)
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cmake --install "$1" --prefix "$folder/prefix" >"$folder/install.log"
-cmake -S "$source_dir" -B "$folder/build" -G Ninja -DCMAKE_PREFIX_PATH="$folder/prefix" -DCMAKE_BUILD_TYPE=Release
+cmake -S "$source_dir" -B "$folder/build" -G Ninja -DCMAKE_PREFIX_PATH="$folder/prefix" -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE=-DNDEBUG
 cmake --build "$folder/build"
 "$folder/build/consumer" | tee "$folder/out"
 grep -Eq '^[1-9][0-9]* isopoints' "$folder/out"
@@ -21,7 +21,7 @@ block() { sed -n "/^\`\`\`$1\$/,/^\`\`\`\$/p" "$source_dir/../../README.md" | se
 mkdir "$folder/readme"
 block cmake >"$folder/readme/CMakeLists.txt"
 block cpp >"$folder/readme/main.cpp"
-cmake -S "$folder/readme" -B "$folder/readme/build" -G Ninja -DCMAKE_PREFIX_PATH="$folder/prefix" -DCMAKE_BUILD_TYPE=Release
+cmake -S "$folder/readme" -B "$folder/readme/build" -G Ninja -DCMAKE_PREFIX_PATH="$folder/prefix" -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE=-DNDEBUG
 cmake --build "$folder/readme/build"
 "$folder/readme/build/mine" | grep -E '^[1-9][0-9]* isopoints'
 "$folder/prefix/bin/uvol_isosurface" -version

@@ -134,7 +134,7 @@ TEST_P(MemoryForecast, IsEnoughAndNotTwiceThePeak)
   }
   else if (isNoisy())
     in = makeOnce("noisy.pcd",
-                  "uvol_generate noisy.pcd -field torus -n 300000 -noise 0.05");
+                  "uvol_generate noisy.pcd -field torus -n 100000 -noise 0.05");
   else
     in = makeOnce("in.pcd", "uvol_generate in.pcd -field torus -n 300000");
   std::filesystem::create_symlink(in, folder_ / GetParam().input);
