@@ -117,8 +117,9 @@ const MessageText warning_rows[] = {
      "a third: vertices lie that far from where the surface may be."},
     {"missed_samples",
      "At {isovalue} the surface encloses {enclosed} samples, and {beyond} have "
-     "values beyond the isovalue: the mesh is coarser than clumps of few samples, "
-     "or leaves them out. For masses, take the sum beyond the isovalue."},
+     "values beyond the isovalue: {encloses_more|between samples it is a guess|the "
+     "mesh is coarser than clumps of few samples, or leaves them out}. For masses, "
+     "take the sum beyond the isovalue."},
     {"kept_unsure_pieces",
      "All pieces of some isovalues ({kept} of {pieces} pieces) have an error as "
      "large as they are. They are kept, since nothing would be left."},

@@ -65,7 +65,8 @@ warnOfMissedSamples(const SurfaceFigures& figures, Report& report)
       report.warn("missed_samples",
                   {{"isovalue", describeNumbers({all.isovalue})[0]},
                    {"enclosed", all.samples},
-                   {"beyond", beyond}});
+                   {"beyond", beyond},
+                   {"encloses_more", static_cast<double>(all.samples) > beyond}});
   }
 }
 

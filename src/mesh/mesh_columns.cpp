@@ -75,6 +75,17 @@ MeshColumns::MeshColumns(const std::vector<Eigen::Vector3d>& places,
     low_ = low_.cwiseMin(place);
     high_ = high_.cwiseMax(place);
   }
+  for (const Triangle& triangle : triangles)
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto are_at = [&](double face) {
+        return std::all_of(triangle.begin(), triangle.end(), [&](auto vertex) {
+          return places[vertex][axis] == face;
+        });
+      };
+      const auto face = static_cast<std::size_t>(axis);
+      is_capped_low_[face] = is_capped_low_[face] || are_at(low_[axis]);
+      is_capped_high_[face] = is_capped_high_[face] || are_at(high_[axis]);
+    }
   const auto side = static_cast<std::size_t>(
       std::sqrt(static_cast<double>(std::max<std::size_t>(triangles.size(), 1))));
   columns_ = {side, side};
@@ -138,19 +149,19 @@ MeshColumns::crossingOf(const Triangle& triangle, const Eigen::Vector3d& place) 
   return (turns > 0 ? height > 0.0 : height < 0.0) ? turns : 0;
 }
 
-/** Bring a place on a face of the mesh's box into the box: caps lie there, where the
- * outermost samples of a lattice are, which they enclose. Of other meshes only the
- * outermost vertices lie there. */
+/** Bring a place on a cap in a face of the mesh's box into the box: the outermost
+ * samples of a lattice are there, which caps enclose. */
 Eigen::Vector3d
 MeshColumns::enterCaps(const Eigen::Vector3d& place) const
 {
   constexpr double inwards = 1e-9; // in sides of the box
   Eigen::Vector3d inner = place;
   for (int axis = 0; axis < 3; ++axis) {
+    const auto face = static_cast<std::size_t>(axis);
     const double step = inwards * (high_[axis] - low_[axis]);
-    if (place[axis] == low_[axis])
+    if (is_capped_low_[face] && place[axis] == low_[axis])
       inner[axis] += step;
-    else if (place[axis] == high_[axis])
+    else if (is_capped_high_[face] && place[axis] == high_[axis])
       inner[axis] -= step;
   }
   return inner;

@@ -84,6 +84,7 @@ private:
   const std::vector<std::int32_t>& piece_of_;
   const BoxClosure* closure_;
   Eigen::Vector3d low_, high_;
+  std::array<bool, 3> is_capped_low_{}, is_capped_high_{}; ///< by triangles in the face
   std::array<std::size_t, 2> columns_;
   std::vector<std::size_t> begins_; // by column, and the end
   std::vector<std::uint32_t> members_;

@@ -471,10 +471,9 @@ FilledGaps::predict(const pcl::PointCloud<PointIso>& roots,
     else
       summary_.spacing *= 2.0;
   }
-  constexpr double node_bytes = 300.0; // in tables, as a sample, and in a tree
   checkMemoryOf("Filling gaps by a lattice",
                 nodes.size(),
-                node_bytes * static_cast<double>(nodes.size()));
+                gap_node_bytes * static_cast<double>(nodes.size()));
   summary_.predicted = nodes.size();
   summary_.unfilled = nodes.empty() ? tellWhyEmpty(summary_, kriged) : std::string();
   if (nodes.empty())

@@ -35,6 +35,9 @@ namespace pcl_uvol::detail {
  * more gets a coarser one. */
 constexpr std::size_t most_gap_nodes = std::size_t{1} << 20;
 
+/** \brief Bytes of a node: in tables, as a sample of the surface, and in a tree. */
+constexpr double gap_node_bytes = 300.0;
+
 /** \brief Kriging as it bridges gaps: from 16 samples, an eighth of them from each
  * octant, since the nearest ones may all lie on one line. Without errors and gradients.
  */

@@ -7,6 +7,7 @@
 #include "levelset/phi_cloud.h"
 #include "mesh/memory_need.h"
 #include "neighbors/exact_neighbors.h"
+#include "pipeline/gap_filling.h"
 #include "pipeline/periodic_surface.h"
 #include "surface/memory_need.h"
 
@@ -25,9 +26,12 @@ constexpr double tree_bytes = 60.0;
  * besides these. */
 constexpr double isopoint_bytes = 3.0 * sizeof(PointIso) + sizeof(IsoEdge);
 
-/** A sample while gaps are filled: in the trees of two kriged fields. Samples that are
- * predicted there take more, see FilledGaps. */
+/** A sample while gaps are filled: in the trees of two kriged fields. */
 constexpr double gap_bytes = 150.0;
+
+/** Nodes of the lattice in gaps for each sample, about: their number shows when gaps
+ * are filled, and is checked then. */
+constexpr double nodes_per_sample = 4.0;
 
 /** Bytes of a level set with its tree. */
 double
@@ -66,7 +70,10 @@ pipelineBytes(double samples,
   if (parameters.isosurface.neighbors == NeighborSource::Exact)
     bytes += ExactNeighbors::bytesPerSample() * samples;
   if (parameters.fill_gaps)
-    bytes += detail::variogramBytes(samples) + (point_step + gap_bytes) * samples;
+    bytes +=
+        detail::variogramBytes(samples) + (point_step + gap_bytes) * samples +
+        detail::gap_node_bytes * std::min(nodes_per_sample * samples,
+                                          static_cast<double>(detail::most_gap_nodes));
   double extracting = isosurfaceBytes(samples, isovalues);
   if (parameters.smooth) // one isovalue after the other
     extracting = std::max(levelSetBytes(samples, parameters.level_set),

@@ -505,7 +505,7 @@ writeVtkHdf(const std::string& path,
   file.table("/VTKHDF/Points", H5T_IEEE_F64LE, 3, places);
   file.table("/VTKHDF/Offsets", H5T_STD_I64LE, 1, offsets);
   file.table("/VTKHDF/Connectivity", H5T_STD_I64LE, 1, corners);
-  file.table("/VTKHDF/Types", H5T_STD_U8LE, 1, types);
+  file.table("/VTKHDF/Types", H5T_STD_I16LE, 1, types); // VTK has bytes
   file.group("/VTKHDF/PointData");
   file.table("/VTKHDF/PointData/f", H5T_IEEE_F64LE, 1, std::vector<double>(2 * points));
 }

@@ -280,26 +280,32 @@ TEST(SimilarWords, AreContinuationsFirst)
 TEST(Options, ComeFromMembers)
 {
   pcl_uvol::LevelSetParameters parameters;
-  Line line;
-  line.options.members(parameters, {"mu", "flow"});
-  line.options.members(parameters, {"k", "band_width"}, "with something: ");
-  EXPECT_THROW(line.options.members(parameters, {"kk"}), std::logic_error);
-  EXPECT_THROW(line.options.members(parameters, {"scale"}), std::logic_error);
+  struct MemberLine : Line {
+    explicit MemberLine(pcl_uvol::LevelSetParameters& target)
+    {
+      options.members(target, {"mu", "flow"});
+      options.members(target, {"k", "band_width"}, "with something: ");
+    }
+  };
+  EXPECT_THROW(Line().options.members(parameters, {"kk"}), std::logic_error);
+  EXPECT_THROW(Line().options.members(parameters, {"scale"}), std::logic_error);
   EXPECT_TRUE(
-      line.parse({"a", "b", "-mu", "0.5", "-flow", "mean", "-k", "7", "-band", "4"}));
+      MemberLine(parameters)
+          .parse({"a", "b", "-mu", "0.5", "-flow", "mean", "-k", "7", "-band", "4"}));
   EXPECT_EQ(0.5, parameters.mu);
   EXPECT_EQ(pcl_uvol::CurvatureFlow::Mean, parameters.flow);
   EXPECT_EQ(7u, parameters.k);
   EXPECT_EQ(4.0, parameters.band_width);
-  EXPECT_TRUE(line.parse({"a", "b", "-mu", "auto"}));
+  EXPECT_TRUE(MemberLine(parameters).parse({"a", "b", "-mu", "auto"}));
   EXPECT_FALSE(parameters.mu);
   for (const auto& [option, value] : {std::pair("-mu", "1.5"),
                                       std::pair("-k", "2"),
                                       std::pair("-k", "1001"),
                                       std::pair("-flow", "up"),
                                       std::pair("-band", "-1")})
-    EXPECT_THROW(line.parse({"a", "b", option, value}), UsageError) << option;
-  const std::string help = line.help({"-h", "all"});
+    EXPECT_THROW(MemberLine(parameters).parse({"a", "b", option, value}), UsageError)
+        << option;
+  const std::string help = MemberLine(parameters).help({"-h", "all"});
   EXPECT_THAT(help, HasSubstr("with something: nearest neighbours"));
   EXPECT_THAT(help, HasSubstr("mean|relative"));
 }
