@@ -162,7 +162,7 @@ expectReport(const std::string& text)
 std::uint64_t
 countDefaultLines()
 {
-  return isSanitized() ? 25 : 100;
+  return isSanitized() ? 25 : 50;
 }
 
 std::string
