@@ -293,9 +293,17 @@ TEST(SureFits, PredictBetweenProfilesAndNotInStretchedCells)
       takeCells(uvol_test::runPipeline(samples, makeParameters(0.0, false)));
   EXPECT_GT(as_it_is.size(), 1000u);
   expectSame(as_it_is, takeCells(filled));
+}
+
+TEST(SureFits, PredictTheSameOnThreadsAndInUnits_long)
+{
+  const auto cloud = makeCellsAndProfiles(1.0f);
+  const auto samples = toDataset(cloud);
+  const auto filled = uvol_test::runPipeline(samples, makeParameters(0.0, true), 1);
   EXPECT_EQ(
       filled.surface.cloud.data,
       uvol_test::runPipeline(samples, makeParameters(0.0, true), 3).surface.cloud.data);
+  const Predicted predicted = predict(cloud);
   const Predicted large = predict(makeCellsAndProfiles(0x1p20f));
   EXPECT_EQ(predicted.count, large.count);
   EXPECT_EQ(0x1p20 * predicted.least_x, large.least_x);
