@@ -143,7 +143,8 @@ TEST_P(MemoryForecast, IsEnoughAndNotTwiceThePeak)
   const auto [forecast, peak] = readMemory(result.out);
   ASSERT_GT(peak, started + 10.0) << result.out;
   EXPECT_GT(forecast, 0.98 * peak); // reports round both to three digits
-  EXPECT_LT(forecast - started, 2.0 * (peak - started));
+  // FewSplats has 1.73: a splat for each point is counted.
+  EXPECT_LT(forecast - started, 1.8 * (peak - started));
 }
 
 /** A header that promises four thousand million points, and a file as long, of which

@@ -11,6 +11,7 @@
 #include <cctype>
 #include <cmath>
 #include <iostream>
+#include <limits>
 #include <optional>
 #include <sstream>
 
@@ -229,6 +230,20 @@ Options::choice(const std::string& name,
               check});
 }
 
+namespace {
+
+/** As in "-zoom is from 0 to 9"; the least and the largest double are no bounds. */
+std::string
+describeRange(double minimum, double maximum)
+{
+  using Limits = std::numeric_limits<double>;
+  if (maximum < Limits::max())
+    return "from " + shortest(minimum) + " to " + shortest(maximum);
+  return minimum == Limits::min() ? "above 0" : "at least " + shortest(minimum);
+}
+
+} // namespace
+
 Options&
 Options::number(const std::string& name,
                 double& target,
@@ -239,8 +254,8 @@ Options::number(const std::string& name,
   const auto assign = [name, minimum, maximum, &target](const std::string& value) {
     const double number = parseNumber(name, value);
     if (number < minimum || number > maximum)
-      throw UsageError("-" + name + " is from " + shortest(minimum) + " to " +
-                       shortest(maximum) + ", not " + value + ".");
+      throw UsageError("-" + name + " is " + describeRange(minimum, maximum) +
+                       ", not " + value + ".");
     target = number;
   };
   return add({name,
