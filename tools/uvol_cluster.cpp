@@ -176,7 +176,7 @@ writeCluster(const Options& options,
   Facts of_scale;
   const auto stretch = arguments.scale.resolve(
       pcl_uvol::viewOf(dataset.cloud), "", options.threads(), report, of_scale);
-  facts.insert(facts.end(), of_scale.begin(), of_scale.end());
+  uvol_tools::append(facts, of_scale);
   if (!arguments.isMesh()) {
     const Dataset surface =
         pcl_uvol::extractMembershipSurface(dataset,

@@ -308,7 +308,7 @@ describeCloud(const Options& options,
     Facts facts_of_scale;
     stretch = arguments.scale.resolve(
         pcl_uvol::viewOf(dataset.cloud), "", threads, report, facts_of_scale);
-    facts.insert(facts.end(), facts_of_scale.begin(), facts_of_scale.end());
+    uvol_tools::append(facts, facts_of_scale);
     addPositions(input, dataset, stretch, threads, facts, report);
   }
   else

@@ -79,12 +79,6 @@ struct Job {
   Facts facts;
   std::optional<uvol_tools::MemoryGuard> memory; ///< none within a bound
 
-  void
-  append(const Facts& more)
-  {
-    facts.insert(facts.end(), more.begin(), more.end());
-  }
-
   /** Extract, and write everything but the picture. */
   pcl_uvol::Dataset
   extract()
@@ -106,12 +100,13 @@ struct Job {
     else
       uvol_tools::savePoints(arguments.output, result.surface, save, report);
     facts = {{"input", arguments.input}, {"output", arguments.output}};
-    append(uvol_tools::describeSurface(result,
+    append(facts,
+           uvol_tools::describeSurface(result,
                                        arguments.parameters,
                                        arguments.getMesh().isMeasured() &&
                                            !result.triangles.empty()));
-    append(figures);
-    append(uvol_tools::describeModels(result, arguments.parameters));
+    append(facts, figures);
+    append(facts, uvol_tools::describeModels(result, arguments.parameters));
     arguments.picture.getLook().exaggerate(result.surface);
     return std::move(result.surface);
   }

@@ -233,7 +233,7 @@ run(int argc, char** argv, pcl_uvol::Communicator& communicator)
   uvol_tools::Facts facts{{"input", joined(arguments.inputs)},
                           {"output", arguments.output},
                           {"processes", static_cast<double>(communicator.size())}};
-  facts.insert(facts.end(), of_samples.begin(), of_samples.end());
+  uvol_tools::append(facts, of_samples);
   facts.insert(
       facts.end(),
       {{"scale", uvol_tools::toNumbers(arguments.parameters.isosurface.scale)},

@@ -87,11 +87,12 @@ declare(Options& options, Arguments& arguments)
                arguments.is_checked,
                "look for triangles that go through one another as well");
   options.group("Picture");
-  options.output(
-      "png",
-      "out.png|.svg|.pdf",
-      arguments.picture,
-      "of samples: draw a curve over the isovalues, of a series one over time");
+  options
+      .output("png",
+              "out.png|.svg|.pdf",
+              arguments.picture,
+              "of samples: draw a curve over the isovalues, of a series one over time")
+      .check(uvol_tools::checkPicturePath);
   options.text("plot",
                "column",
                arguments.plot,
@@ -163,8 +164,6 @@ check(const Options& options, Arguments& arguments)
     throw UsageError("-png of a series draws a curve over time: give -iso one value.");
   if (!arguments.output.empty())
     pcl_uvol::checkSavePath(arguments.output);
-  if (!arguments.picture.empty())
-    uvol_tools::checkPicturePath(arguments.picture);
 }
 
 /** A surface, and the samples to look for inside. */
@@ -243,9 +242,6 @@ extractSurface(const Options& options,
   pipeline.setProgressCallback(report.progress);
   pcl_uvol::IsosurfaceResult result = pipeline.run();
   report.merge(result.report);
-  if (2 * (report.getCount("bridged") + report.getCount("rim")) >
-      report.getCount("isopoints"))
-    report.warn("unconstrained_measures");
   if (result.triangles.empty())
     throw pcl_uvol::InvalidArgument(
         "There is no isosurface to measure: " + result.field +
@@ -477,7 +473,7 @@ run(int argc, char** argv, const uvol_tools::SeriesStep* step, MeasureSeries& se
   if (!arguments.output.empty() && !uvol_tools::isOfAll(arguments.output))
     uvol_tools::savePoints(arguments.output, measured.table.toDataset(), {}, report);
   uvol_tools::Facts facts = {{"input", arguments.input}};
-  facts.insert(facts.end(), measured.facts.begin(), measured.facts.end());
+  uvol_tools::append(facts, measured.facts);
   uvol_tools::printReport(options, report, facts);
   return 0;
 }

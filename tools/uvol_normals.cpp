@@ -2,10 +2,7 @@
 // Normals of a surface given as points (thesis 4.1).
 #include "common/records.h"
 #include "common/scalar_field.h"
-#include "shared/memory_guard.h"
-#include "shared/options.h"
-#include "shared/point_files.h"
-#include "shared/progress_bar.h"
+#include "shared/point_job.h"
 #include "shared/scale_option.h"
 #include "surface/memory_need.h"
 #include <pcl_uvol/common/cloud_view.h>
@@ -63,22 +60,17 @@ forecastMemory(std::uint64_t k)
 int
 run(int argc, char** argv)
 {
-  std::string input, output;
   std::vector<double> view_point;
   uvol_tools::ScaleOption scale;
-  uvol_tools::InputOptions reading;
   pcl_uvol::SurfaceNormalParameters parameters;
-  bool ascii = false;
   uvol_tools::Options options(
       "uvol_normals",
       "in.ply out.ply [options]",
       "Estimates normals of a surface given as points, from the principal components "
       "of the "
       "nearest neighbours.\nNormals that the file has orient the new ones.");
-  options.file("in", input);
-  options.file("out", output);
-  options.group("Input");
-  reading.declare(options);
+  uvol_tools::PointJob job(options, "Estimating normals");
+  job.declareInput();
   options.group("Normals");
   options.members(parameters, {"k"});
   options.numbers("viewpoint",
@@ -87,29 +79,17 @@ run(int argc, char** argv)
                   view_point,
                   "points without a normal look there (default 0,0,0)");
   scale.declare(options, "distances", uvol_tools::AutomaticScale::Spacing);
-  options.group("Output");
-  options.flag("ascii", ascii, "write PCD and PLY as text");
+  job.declareOutput();
   if (!options.parse(argc, argv))
     return 0;
   scale.finish(options);
-  const pcl_uvol::LoadOptions load = reading.makeLoadOptions();
-  const std::string& where = reading.getWhere();
-  pcl_uvol::checkSavePath(output);
-  uvol_tools::MemoryGuard memory("Estimating normals");
-  memory.checkFile(input, where.empty() ? forecastMemory(parameters.k) : nullptr, load);
-
-  Report report;
-  uvol_tools::ProgressBar bar;
-  report.progress = std::ref(bar);
-  const pcl_uvol::Dataset dataset =
-      uvol_tools::loadPoints(input, report, load, where, options.threads());
-  pcl_uvol::checkSavePath(output, dataset.cloud.fields);
-  memory.checkCloud(dataset, forecastMemory(parameters.k));
-  uvol_tools::Facts facts = {{"input", input}, {"output", output}};
+  const auto bytes = forecastMemory(parameters.k);
+  const pcl_uvol::Dataset dataset = job.read(bytes);
+  job.check(dataset, bytes);
   uvol_tools::Facts of_scale;
   const auto stretch = scale.resolve(
-      pcl_uvol::viewOf(dataset.cloud), "", options.threads(), report, of_scale);
-  facts.insert(facts.end(), of_scale.begin(), of_scale.end());
+      pcl_uvol::viewOf(dataset.cloud), "", options.threads(), job.report, of_scale);
+  uvol_tools::append(job.facts, of_scale);
   parameters.scale = stretch.scale;
   parameters.rotation = stretch.rotation;
   if (view_point.empty())
@@ -119,17 +99,12 @@ run(int argc, char** argv)
           .cast<float>();
   if (pcl_uvol::findField(dataset.cloud.fields, "normal_x") == nullptr &&
       !options.given("viewpoint"))
-    report.warn("oriented_to_zero");
+    job.report.warn("oriented_to_zero");
 
   pcl_uvol::Dataset result = pcl_uvol::withoutCloud(dataset);
-  result.cloud = estimateNormals(dataset.cloud, parameters, options.threads(), report);
-  pcl_uvol::SaveOptions save;
-  save.ascii = ascii;
-  uvol_tools::savePoints(output, result, save, report);
-  report.count("points", result.cloud.width);
-  facts.push_back(memory.describe());
-  uvol_tools::printReport(options, report, facts);
-  return 0;
+  result.cloud =
+      estimateNormals(dataset.cloud, parameters, options.threads(), job.report);
+  return job.finish(result);
 }
 
 } // namespace

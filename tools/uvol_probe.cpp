@@ -311,7 +311,7 @@ run(int argc, char** argv, uvol_tools::SeriesStep* step)
   Facts facts = {{"input", arguments.input}};
   if (!arguments.output.empty())
     facts.emplace_back("output", arguments.output);
-  facts.insert(facts.end(), of_scale.begin(), of_scale.end());
+  uvol_tools::append(facts, of_scale);
   facts.push_back(uvol_tools::describeSampling(
       pcl_uvol::summarizeSampling(view,
                                   indices,
@@ -357,7 +357,7 @@ run(int argc, char** argv, uvol_tools::SeriesStep* step)
                                     parameters,
                                     interpolator};
       const Facts found = uvol_tools::runProbe(probe, summary, report);
-      facts.insert(facts.end(), found.begin(), found.end());
+      uvol_tools::append(facts, found);
       addRanges(summary, facts);
       summary.warn(report);
     }

@@ -52,12 +52,14 @@ declare(Options& options, Arguments& arguments)
       "field that tells the clusters, negative for noise (default: label, else "
       "they are found by density)");
   options.group("Output");
-  options.output(
-      "axes", "out.csv", arguments.axes, "write the axis of every attribute");
-  options.output("png",
-                 "out.png|.svg|.pdf",
-                 arguments.picture,
-                 "draw the points, by cluster, and the axes");
+  options.output("axes", "out.csv", arguments.axes, "write the axis of every attribute")
+      .check(pcl_uvol::checkTablePath);
+  options
+      .output("png",
+              "out.png|.svg|.pdf",
+              arguments.picture,
+              "draw the points, by cluster, and the axes")
+      .check(uvol_tools::checkPicturePath);
   options.choice("view",
                  {"iso", "front", "back", "left", "right", "top", "bottom"},
                  arguments.view,
@@ -113,10 +115,6 @@ run(int argc, char** argv)
   if (arguments.axes == arguments.output)
     throw UsageError("-axes and the output are the same file.");
   arguments.size.checkChart(options, "png", !arguments.picture.empty());
-  if (!arguments.picture.empty())
-    uvol_tools::checkPicturePath(arguments.picture);
-  if (!arguments.axes.empty())
-    pcl_uvol::checkTablePath(arguments.axes);
 
   Report report;
   uvol_tools::ProgressBar bar;

@@ -89,7 +89,7 @@ run(int argc, char** argv, uvol_tools::SeriesStep* step)
   if (is_page)
     checkPage(options);
   else
-    uvol_tools::checkPicturePath(output, true);
+    uvol_tools::checkDrawingPath(output);
 
   const auto forecastMemory = [&look = job->look, is_page = job->is_page](double points,
                                                                           double) {

@@ -4,10 +4,7 @@
 #include "common/scalar_field.h"
 #include "render/gaussian_splats.h"
 #include "shared/color_options.h"
-#include "shared/memory_guard.h"
-#include "shared/options.h"
-#include "shared/point_files.h"
-#include "shared/progress_bar.h"
+#include "shared/point_job.h"
 #include "shared/splat_options.h"
 #include "surface/memory_need.h"
 #include <pcl_uvol/common/cloud_view.h>
@@ -67,9 +64,8 @@ forecastMemory(double points, double step)
 int
 run(int argc, char** argv)
 {
-  std::string input, output;
   uvol_tools::SplatOptions splat_options;
-  bool ascii = false, is_gaussian = false;
+  bool is_gaussian = false;
   std::string color = "auto";
   uvol_tools::ColorOptions colors;
   uvol_tools::Options options(
@@ -78,12 +74,10 @@ run(int argc, char** argv)
       "Covers a surface given as points with discs that have fields of normals, for "
       "uvol_raytrace.\nThe input's normals are used; where it has none they are "
       "estimated.");
-  options.file("in", input);
-  options.file("out", output);
+  uvol_tools::PointJob job(options, "Making splats");
   options.group("Splats");
   splat_options.declare(options);
-  options.group("Output");
-  options.flag("ascii", ascii, "write PCD and PLY as text");
+  job.declareOutput();
   options.flag("gaussians",
                is_gaussian,
                "write a .ply that viewers of 3D Gaussian splats show, lit");
@@ -99,39 +93,27 @@ run(int argc, char** argv)
     if (options.given(name) && !is_gaussian)
       throw uvol_tools::UsageError(std::string("-") + name + " needs -gaussians.");
   colors.check();
-  if (is_gaussian && std::filesystem::path(output).extension() != ".ply")
+  if (is_gaussian && std::filesystem::path(job.getOutput()).extension() != ".ply")
     throw uvol_tools::UsageError("-gaussians are written as .ply.");
   const pcl_uvol::SplatParameters parameters = splat_options.parameters(options);
-  pcl_uvol::checkSavePath(output);
-  uvol_tools::MemoryGuard memory("Making splats");
-  memory.checkFile(input, forecastMemory);
-
-  Report report;
-  uvol_tools::ProgressBar bar;
-  report.progress = std::ref(bar);
-  const pcl_uvol::Dataset dataset = uvol_tools::loadPoints(input, report);
-  pcl_uvol::checkSavePath(output, dataset.cloud.fields);
-  memory.checkCloud(dataset, forecastMemory);
+  const pcl_uvol::Dataset dataset = job.read(forecastMemory);
+  job.check(dataset, forecastMemory);
   pcl_uvol::Dataset result = pcl_uvol::withoutCloud(dataset);
-  result.cloud = generateSplats(dataset.cloud, parameters, options.threads(), report);
+  result.cloud =
+      generateSplats(dataset.cloud, parameters, options.threads(), job.report);
   if (is_gaussian) {
     const pcl_uvol::CloudView splats = pcl_uvol::viewOf(result.cloud);
     const std::string field = pcl_uvol::resolveColor(splats, color);
     const pcl_uvol::ColorMapping mapping = colors.mapFor(splats, field);
-    pcl_uvol::warnOfLogarithms(splats, field, mapping, report);
+    pcl_uvol::warnOfLogarithms(splats, field, mapping, job.report);
     result.cloud = pcl_uvol::makeGaussians(splats, field, mapping);
     if (result.origin != std::array<double, 3>{})
-      report.warn("gaussians_without_origin",
-                  {{"origin", describePlace(result.origin)}});
+      job.report.warn("gaussians_without_origin",
+                      {{"origin", describePlace(result.origin)}});
     result.origin = {};
     result.double_coordinates = false;
   }
-  pcl_uvol::SaveOptions save;
-  save.ascii = ascii;
-  uvol_tools::savePoints(output, result, save, report);
-  uvol_tools::printReport(
-      options, report, {{"input", input}, {"output", output}, memory.describe()});
-  return 0;
+  return job.finish(result);
 }
 
 } // namespace

@@ -74,10 +74,12 @@ declare(Options& options, Arguments& arguments)
                   pcl_uvol::ConicSections::most_first_triangles,
                   "of the first ring; the thesis has 4");
   options.group("Picture");
-  options.output("png",
-                 "out.png|.svg|.pdf",
-                 arguments.picture,
-                 "draw slices, a colour per region");
+  options
+      .output("png",
+              "out.png|.svg|.pdf",
+              arguments.picture,
+              "draw slices, a colour per region")
+      .check(uvol_tools::checkPicturePath);
   options.integer("slices", arguments.slices, 1, 1000, "slices of the picture");
   options.choice(
       "axis", {"x", "y", "z"}, arguments.axis, "slices are perpendicular to it");
@@ -157,9 +159,7 @@ run(int argc, char** argv)
   pcl_uvol::checkGridPath(arguments.output);
   if (options.given("device") && arguments.backend != "egl")
     throw UsageError("-device is a graphics card, which -backend egl draws on.");
-  if (!arguments.picture.empty())
-    uvol_tools::checkPicturePath(arguments.picture);
-  else if (options.given("slices") || options.given("axis"))
+  if (arguments.picture.empty() && (options.given("slices") || options.given("axis")))
     throw UsageError("-slices and -axis need -png.");
   arguments.size.checkChart(options, "png", !arguments.picture.empty());
 

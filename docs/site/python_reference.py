@@ -26,7 +26,7 @@ def read_members(folder, node):
     """Names, types and help of the parameters that a function takes by `described`: from the header that lists them, and
     the stub."""
     calls = [decorator.args[0].func.attr for decorator in node.decorator_list
-             if isinstance(decorator, ast.Call) and getattr(decorator.func, "id", "") == "described"]
+             if isinstance(decorator, ast.Call) and getattr(decorator.func, "id", "") == "described" and decorator.args]
     if not calls:
         return []
     header = (folder.parent.parent / "include/pcl_uvol" / HEADERS[calls[0]]).read_text()
@@ -34,13 +34,12 @@ def read_members(folder, node):
                 if getattr(item, "name", "") == node.name)
     types = {argument.arg: ast.unparse(argument.annotation) for argument in stub.args.kwonlyargs}
     texts = re.findall(r'Member\{\s*"(\w+)",\s*&Own::\w+,\s*\{((?:\s*"[^"]*")+)', header)
-    return [{"name": name, "type": types[name], "help": "".join(re.findall(r'"([^"]*)"', text))} for name, text in texts]
+    return [{"name": name, "type": types[name], "help": "".join(re.findall(r'"([^"]*)"', text))}
+            for name, text in texts if name in types]
 
 
 def read_docstring(folder, node):
-    text = ast.get_docstring(node)
-    members = read_members(folder, node)
-    return fill(text, members) if members else text
+    return fill(ast.get_docstring(node), read_members(folder, node))
 
 
 def read_docstrings(folder):

@@ -27,33 +27,27 @@ def level_set(points, fields=None, *, iso, field="", scale=(1.0, 1.0, 1.0), rota
 
     Parameters
     ----------
-    points, fields
-        As those of `Samples`, or samples.
+    {points, fields}
     iso : float
         Isovalue, in units of the field.
-    field : str
-        As that of `isosurface`.
-    scale, rotate
-        As those of `isosurface`.
+    {field}
+    {scale, rotate}
     start : str or dict, optional
         A field in units of length, or a shape: {"kind": "sphere", "first": centre,
         "radius": r}, {"kind": "box", "first": low, "second": high}, {"kind": "plane",
         "first": point, "second": normal}. By default the values themselves.
     snapshots : int
         Keep the surface every so many steps, as `snapshots` of the result; 0: never.
-    periodic : sequence of 3 floats, or "header", optional
-        As that of `isosurface`; without `rotate`.
+    {periodic}
     {parameters}
-    threads, progress
-        As those of `isosurface`.
+    {threads, progress}
 
     Returns
     -------
     Samples
         With the field `phi`, about the distance to the surface in units of length,
         positive where values are higher; `report` tells mu, noise, spacing, and every
-        step; `snapshots` is a list of steps and points of the surface after these, as
-        samples.
+        step; `snapshots` lists steps and samples of the surface after these.
 
     Raises
     ------
@@ -71,21 +65,16 @@ def level_set(points, fields=None, *, iso, field="", scale=(1.0, 1.0, 1.0), rota
     >>> smooth.report["mu"], smooth.parameters["k"]
     (0.5, 26)
     """
-    isovalues = _parameters.numbers(iso, "iso")
-    if len(isovalues) != 1:
-        raise ValueError("A level set has one isovalue.")
     samples = as_samples(points, fields)
     stretch = _parameters.Stretch(scale, rotate)
     sides = samples._find_box(periodic)
     samples, name = samples._with_numbers(field, threads, progress, sides)
-    initial = {}
     if isinstance(start, str):
         samples, start_name = samples._with_numbers(start, threads, progress, sides)
-        initial = {"kind": "field", "field": start_name}
-    elif start is not None:
-        initial = _parameters.mapping(start, "start")
+        start = {"kind": "field", "field": start_name}
     by_field = stretch.word == "auto"
-    parameters.update(field=name, isovalue=isovalues[0], initial=initial, rotation=stretch.rotation,
+    parameters.update(field=name, isovalue=_parameters.number(iso, "iso"), rotation=stretch.rotation,
+                      initial={} if start is None else _parameters.mapping(start, "start"),
                       scale=[1.0, 1.0, 1.0] if by_field else stretch.resolve(samples._dataset))
     dataset, found, report, taken = _run(_core.evolve_level_set, samples, parameters, threads, progress,
                                          _parameters.count(snapshots, "snapshots"), sides, by_field)
@@ -106,12 +95,10 @@ def normals(points, fields=None, *, scale=(1.0, 1.0, 1.0), rotate=None, view_poi
         As those of `Samples`, or samples. Normals that they have (fields normal_x,
         normal_y, normal_z) orient the new ones.
     {parameters}
-    scale, rotate
-        As those of `isosurface`; "auto" is "spacing".
+    {scale, rotate}
     view_point : array_like, shape (3,)
         Where points without a normal of their own are seen from: normals point there.
-    threads, progress
-        As those of `isosurface`.
+    {threads, progress}
 
     Returns
     -------
@@ -136,6 +123,7 @@ def normals(points, fields=None, *, scale=(1.0, 1.0, 1.0), rotate=None, view_poi
 
 
 @_parameters.with_proposals
+@described()
 def splats(points, fields=None, *, delta=1e-4, delta_is_length=False, overlap=0.2, gaussians=False, color="auto",
            threads=0, progress=None):
     """Cover a surface given as points with discs that have fields of normals (thesis 4.2.1).
@@ -156,8 +144,7 @@ def splats(points, fields=None, *, delta=1e-4, delta_is_length=False, overlap=0.
     color : str
         Of these: a field, "rgb", "none", or "auto": rgb if there, else isovalue if there
         are several.
-    threads, progress
-        As those of `isosurface`.
+    {threads, progress}
 
     Returns
     -------
@@ -335,14 +322,14 @@ class Clusters:
 
 
 @_parameters.with_proposals
+@described()
 def cluster(points, fields=None, *, attributes=(), labels=None, standardized=True, k=10, min_size=0, cut=0.0, single=False,
             threads=0, progress=None):
     """Find clusters of samples by the density of their attributes (thesis 2.6, HDBSCAN*).
 
     Parameters
     ----------
-    points, fields
-        As those of `Samples`, or samples.
+    {points, fields}
     attributes : sequence of str
         Fields or expressions that span the space; "x", "y" and "z" may be among them.
     labels : array_like of int, shape (n,), optional
@@ -358,8 +345,7 @@ def cluster(points, fields=None, *, attributes=(), labels=None, standardized=Tru
         Choose the clusters at that distance of attributes; 0: by persistence.
     single : bool
         All points may be one cluster.
-    threads, progress
-        As those of `isosurface`.
+    {threads, progress}
 
     Returns
     -------
@@ -482,6 +468,7 @@ class Projection:
 
 
 @_parameters.with_proposals
+@described()
 def project(points, fields=None, *, attributes, labels=None, standardized=True, method="star", threads=0,
             progress=None):
     """Project points of many attributes into space, so that their clusters lie apart.
@@ -494,8 +481,7 @@ def project(points, fields=None, *, attributes, labels=None, standardized=True, 
         Clusters, negative for noise; by default they are found.
     method : {"star", "pca"}
         Keep the clusters apart as well as can be; or principal components.
-    threads, progress
-        As those of `isosurface`.
+    {threads, progress}
 
     Returns
     -------
@@ -560,20 +546,19 @@ class VoronoiGrid:
 
 
 @_parameters.with_proposals
+@described()
 def voronoi(points, fields=None, *, cells=128, margin=0, threads=0, progress=None):
     """Find the nearest point to every cell of a grid (thesis 2.1).
 
     Parameters
     ----------
-    points, fields
-        As those of `Samples`, or samples.
+    {points, fields}
     cells : int or three int
         Cubes, so many along the longest side of the points' box; or as many boxes along
         x, y and z.
     margin : int
         More cubes on each side; with one number of cells only.
-    threads, progress
-        As those of `isosurface`.
+    {threads, progress}
 
     Returns
     -------
@@ -594,18 +579,17 @@ def voronoi(points, fields=None, *, cells=128, margin=0, threads=0, progress=Non
 
 
 @_parameters.with_proposals
+@described()
 def info(points, fields=None, *, scale=(1.0, 1.0, 1.0), rotate=None, threads=0, progress=None):
     """What samples hold: bounds, spacings, and the range of every number.
 
     Parameters
     ----------
-    points, fields
-        As those of `Samples`, or samples.
+    {points, fields}
     scale, rotate
         As those of `isosurface`, of the space that spacings are measured in; "auto" is
         "spacing".
-    threads, progress
-        As those of `isosurface`.
+    {threads, progress}
 
     Returns
     -------

@@ -593,6 +593,23 @@ const MessageText error_rows[] = {
     {"only_times_named",
      "Cannot read '{path}': its header names no coordinates but times: choose the "
      "columns of the coordinates by their names or numbers ({-xyz})."},
+    {"z_is_missing",
+     "Cannot read '{path}': it has x and y, and z is missing. Samples in a plane need "
+     "a z, which can be 0 everywhere."},
+    {"filter_not_installed",
+     "Cannot read '{path}': the numbers of '{name}' are packed by the filter {filter} "
+     "({id}) of HDF5, which is not installed. Try: h5repack -f GZIP=4 packs them in a "
+     "way that is read, where the filter is installed."},
+    {"swapped_bytes",
+     "Cannot read '{path}': the bytes of the numbers of '{name}' are in the order of "
+     "this machine, and legacy VTK files are big-endian. Try: a program that writes "
+     "them so, or the format .vtu."},
+    {"tecplot_blocks",
+     "Cannot read '{path}': its zone lists one variable after the other (BLOCK). Try: "
+     "write it with DATAPACKING=POINT, which is read."},
+    {"coordinate_below_limit",
+     "Cannot read '{path}': its coordinate {column} has numbers below a limit, as "
+     "<0.25."},
     {"whole_numbers_guessed",
      "Cannot read '{path}': its header names no coordinates, and whole numbers as "
      "in '{column}' may be anything: choose the columns of the coordinates by their "

@@ -30,8 +30,8 @@ describeType(const T& value)
     return "float";
 }
 
-/** \brief The members that have a help text: a list of objects with their name, type,
- * default and help. */
+/** \brief The members that have a help text: a list of objects with their name, the name
+ * that an option has, type, default and help. */
 template <typename Parameters>
 std::string
 writeDescription()
@@ -42,7 +42,9 @@ writeDescription()
     if (*member.text.help == '\0')
       return;
     auto object = detail::JsonValue::makeObject();
+    const char* const option = member.text.option ? member.text.option : member.name;
     object.set("name", detail::JsonValue(std::string(member.name)));
+    object.set("option", detail::JsonValue(std::string(option)));
     object.set("type", detail::JsonValue(describeType(defaults.*member.pointer)));
     object.set("default", detail::toJsonValue(defaults.*member.pointer));
     object.set("help", detail::JsonValue(std::string(member.text.help)));

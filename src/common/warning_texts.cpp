@@ -221,7 +221,8 @@ const MessageText warning_rows[] = {
      "{percent} % of the isopoints lie between lines of samples or beside gaps: "
      "where the surface crosses a line is known, how it runs from there is a "
      "guess.{validate| A hold-out test tells how good it is ({-validate}).|}{scale| "
-     "{-scale}{gaps| or {-fill-gaps}|} may help.|{gaps| {-fill-gaps} may help.|}}"},
+     "{-scale}{gaps| or {-fill-gaps}|} may help.|{gaps| {-fill-gaps} may "
+     "help.|}}{bridged| {-drop-bridged} leaves out the isopoints in gaps.|}"},
     {"smoothed_guesses",
      "{percent} % of the isopoints lie between lines of samples or beside gaps: "
      "where the surface crosses a line is known, how it runs from there is a guess. "
@@ -337,7 +338,8 @@ const MessageText warning_rows[] = {
      "factors for the axes ({-scale})."},
     {"common_ending",
      "The columns {x}, {y} and {z} are taken as the coordinates, because their "
-     "names share an ending. Try: {-xyz} if other columns are the coordinates."},
+     "names differ in a letter only. Try: {-xyz} if other columns are the "
+     "coordinates."},
     {"unfitting_block",
      "The block '{block}' does not fit the particles and is left out."},
     {"far_positions",
@@ -378,6 +380,16 @@ const MessageText warning_rows[] = {
      "{columns} more {columns|column is|columns are} told apart in the same way."},
     {"no_header_line",
      "There is no header line: the columns are called column_0 to column_{last}."},
+    {"skipped_titles",
+     "{lines} {lines|line|lines} above the names of the columns {lines|was|were} "
+     "skipped, from '{first}' on."},
+    {"skipped_units", "Line {line} holds no number and was taken for units: {units}."},
+    {"skipped_count", "Line {line} was taken for the number of rows and skipped."},
+    {"decimal_commas", "Numbers have decimal commas: 0,5 is one half."},
+    {"first_zone", "Of the zones of Tecplot's file the first one is read, as points."},
+    {"below_detection",
+     "{cells} values of '{column}' are given as below a limit, as <0.25: the limit is "
+     "taken, and '{flag}' is 1 there. Try: {column}*(1-0.5*{flag}) takes half of it."},
     {"guessed_coordinates",
      "The header names no x, y, z: the first three columns{skips_times| that are no "
      "times|} ({x}, {y}, {z}) are the coordinates."},
@@ -434,6 +446,10 @@ const MessageText warning_rows[] = {
     {"no_longitudes",
      "'{path}' has no columns or fields of longitude and latitude in degrees: "
      "{-map} leaves its coordinates as they are."},
+    {"not_on_map",
+     "'{path}' has no longitudes and latitudes: its coordinates are taken for metres "
+     "east and north of the middle of the map of '{other}'. If they are degrees, call "
+     "their columns longitude and latitude."},
     {"graphics_card_failed",
      "The graphics card could not draw it, the CPU did: {reason}"},
     {"repeated_colors",

@@ -205,7 +205,7 @@ public:
   }
 
   std::unique_ptr<PieceTask>
-  start(const Piece& piece, unsigned threads, Report&) const override
+  start(const Piece& piece, unsigned threads, Report&) override
   {
     return std::make_unique<PieceNeeds>(piece, settings_, threads);
   }

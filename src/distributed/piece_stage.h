@@ -76,9 +76,9 @@ public:
   /** \brief Begin to work on a piece.
    * \param piece has the ghosts that touch its cell, or at least those that touch
    * bricks of it which, with the bricks around them, something can be found in. It
-   * outlives the task, as the report does. */
+   * outlives the task, as the stage and the report do. */
   virtual std::unique_ptr<PieceTask>
-  start(const Piece& piece, unsigned threads, Report& report) const = 0;
+  start(const Piece& piece, unsigned threads, Report& report) = 0;
 
   /** \brief The place of a record in the stretched space: it belongs to the piece in
    * whose cell that lies. */

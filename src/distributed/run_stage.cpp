@@ -27,7 +27,7 @@ public:
   {
   }
 
-  SamplingSummary
+  StageSamples
   run()
   {
     store_.redistribute();
@@ -39,7 +39,8 @@ public:
     for (std::size_t batch = 0; batch < store_.countBatches(); ++batch)
       runBatch(batch);
     store_.returnToOwner(stage_);
-    return summarizeSampling(allGatherItems(communicator_, seen_));
+    samples_.sampling = summarizeSampling(allGatherItems(communicator_, seen_));
+    return samples_;
   }
 
 private:
@@ -81,7 +82,11 @@ private:
   {
     for (const std::size_t piece : store_.getOwnPieces()) {
       Samples samples = store_.takeSamples(piece);
-      mergeDuplicates(samples, threads_, report_);
+      const MergedSamples merged = mergeDuplicates(samples, threads_);
+      samples_.duplicates += merged.duplicates;
+      samples_.conflicting += merged.conflicting;
+      report_.count("duplicates", merged.duplicates);
+      report_.count("conflicting_duplicates", merged.conflicting);
       store_.append(piece, std::move(samples));
     }
   }
@@ -93,7 +98,8 @@ private:
     const std::vector<std::size_t> pieces = store_.getOwnPieces();
     report_.count("pieces", pieces.size());
     for (const std::size_t piece : pieces)
-      report_.count("samples", store_.getDecomposition().getCount(piece));
+      samples_.samples += store_.getDecomposition().getCount(piece);
+    report_.count("samples", samples_.samples);
     for (const NodeRanges::Range& range :
          allGatherItems(communicator_, std::vector<NodeRanges::Range>{values_}))
       values_ = values_.joined(range);
@@ -141,6 +147,7 @@ private:
   Report& report_;
   NodeRanges::Range values_ = no_range; // of the pieces built
   std::vector<LocalSampling> seen_;     // by some of their samples
+  StageSamples samples_;
 };
 
 } // namespace
@@ -149,7 +156,7 @@ BlockStore::~BlockStore() = default;
 PieceTask::~PieceTask() = default;
 PieceStage::~PieceStage() = default;
 
-SamplingSummary
+StageSamples
 runOnRanks(PieceStage& stage,
            Samples&& samples,
            Communicator& communicator,
@@ -160,7 +167,7 @@ runOnRanks(PieceStage& stage,
   return StageRun(stage, store, threads, report).run();
 }
 
-SamplingSummary
+StageSamples
 runOutOfCore(PieceStage& stage,
              ScratchSamples&& samples,
              const OutOfCoreSettings& settings,

@@ -17,6 +17,18 @@
 
 namespace pcl_uvol {
 
+/** \brief What a stage ran on. */
+struct StageSamples {
+  /** What the samples of all processes are like, in their unit, as far as pieces tell,
+   * whose ends see neighbours on one side only; the same on all processes. */
+  SamplingSummary sampling;
+  std::uint64_t samples = 0; ///< of the pieces of this process
+  /** Samples of this process that became one with others, and those that such a one
+   * stands for although their values differ. @{ */
+  std::uint64_t duplicates = 0, conflicting = 0;
+  /** @} */
+};
+
 /** \brief Run a stage on the samples of all processes.
  *
  * The first levels of the kd-tree part the samples into pieces, which are redistributed
@@ -29,11 +41,9 @@ namespace pcl_uvol {
  * \param report gets the counts and times of the stage for this process, the counts
  * "duplicates", "conflicting_duplicates", "pieces", "samples", "bytes_redistributed"
  * and "bytes_exchanged", and the times of "decomposition", "tree" and "exchange"
- * \return what the samples of all processes are like, in their unit, as far as pieces
- * tell, whose ends see neighbours on one side only; on all processes
  * \throws InvalidArgument on all processes if there is no sample at all.
  * Memory: about 130 bytes per sample. */
-PCL_UVOL_EXPORTS SamplingSummary
+PCL_UVOL_EXPORTS StageSamples
 runOnRanks(PieceStage& stage,
            Samples&& samples,
            Communicator& communicator,
@@ -93,10 +103,9 @@ private:
  * beside the samples; pieces are made that small.
  * \param report as of runOnRanks, with the count "scratch_bytes" (records apart) and
  * the time of "scratch" instead of what is sent
- * \return as runOnRanks
  * \throws InvalidArgument without a sample, for a bound that is too small
  * \throws IOError if the disk is full */
-PCL_UVOL_EXPORTS SamplingSummary
+PCL_UVOL_EXPORTS StageSamples
 runOutOfCore(PieceStage& stage,
              ScratchSamples&& samples,
              const OutOfCoreSettings& settings,

@@ -159,8 +159,8 @@ normalizeTogether(Samples& samples,
   return unit;
 }
 
-void
-mergeDuplicates(Samples& samples, unsigned threads, Report& report)
+MergedSamples
+mergeDuplicates(Samples& samples, unsigned threads)
 {
   std::vector<std::uint32_t> order(samples.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -187,9 +187,9 @@ mergeDuplicates(Samples& samples, unsigned threads, Report& report)
     merged.values.back() = found.value;
     begin = end;
   }
-  report.count("duplicates", samples.size() - merged.size());
-  report.count("conflicting_duplicates", conflicting);
+  const std::uint64_t duplicates = samples.size() - merged.size();
   samples = std::move(merged);
+  return {duplicates, conflicting};
 }
 
 } // namespace pcl_uvol

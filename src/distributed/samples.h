@@ -100,11 +100,16 @@ normalizeTogether(Samples& samples,
                   unsigned threads,
                   Report& report);
 
+/** \brief Samples that coincided. */
+struct MergedSamples {
+  std::uint64_t duplicates = 0;  ///< that were left out
+  std::uint64_t conflicting = 0; ///< of places where values differed
+};
+
 /** \brief Leave one of samples that coincide, with the median of their values; see
  * findRepresentative, for which members are in order of their sources.
- * \param samples come out sorted
- * \param report gets the counts "duplicates" and "conflicting_duplicates" */
-PCL_UVOL_EXPORTS void
-mergeDuplicates(Samples& samples, unsigned threads, Report& report);
+ * \param samples come out sorted */
+PCL_UVOL_EXPORTS MergedSamples
+mergeDuplicates(Samples& samples, unsigned threads);
 
 } // namespace pcl_uvol

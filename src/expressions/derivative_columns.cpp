@@ -114,7 +114,7 @@ deriveColumns(Derivative derivative,
   std::atomic<std::uint64_t> missing{0}, unknown{0};
   Report own; // its counts are those of the samples, which others count as well
   own.progress = report.progress;
-  detail::computeDerivatives(
+  const std::uint64_t few = detail::computeDerivatives(
       points.with_images,
       fields,
       threads,
@@ -139,7 +139,7 @@ deriveColumns(Derivative derivative,
   if (unknown > 0)
     report.warn("unknown_derivatives",
                 {{"unknown", unknown.load()}, {"points", points.own.count}});
-  const auto reduced = static_cast<double>(own.getCount("reduced_fits"));
+  const auto reduced = static_cast<double>(few);
   if (reduced > most_reduced * static_cast<double>(count))
     report.warn("reduced_derivatives", {{"samples", reduced}});
   return columns;

@@ -51,6 +51,9 @@ AnswerSummary::AnswerSummary(const CloudView& cloud,
 void
 AnswerSummary::add(const InterpolatedFields& answers)
 {
+  queries_ += answers.size;
+  for (const FieldSupport kind : answers.support)
+    ++supports_[static_cast<std::size_t>(kind)];
   for (std::size_t f = 0; f < fields_.size(); ++f) {
     Field& field = fields_[f];
     const double extent = field.sample_high - field.sample_low;
@@ -82,27 +85,26 @@ AnswerSummary::warn(Report& report) const
 void
 AnswerSummary::warnOfSupport(Report& report) const
 {
-  const std::uint64_t queries = report.getCount("queries"),
-                      outside = report.getCount("outside"),
-                      invalid = report.getCount("invalid");
-  if (2 * invalid > queries) {
-    report.warn("invalid_queries", {{"invalid", invalid}, {"queries", queries}});
+  const std::size_t outside = count(FieldSupport::Outside),
+                    invalid = count(FieldSupport::Invalid);
+  if (2 * invalid > queries_) {
+    report.warn("invalid_queries", {{"invalid", invalid}, {"queries", queries_}});
     return;
   }
-  if (2 * outside > queries) {
+  if (2 * outside > queries_) {
     const bool has_values =
         std::any_of(fields_.begin(), fields_.end(), [&](const Field& field) {
-          return field.count > queries - outside;
+          return field.count > queries_ - outside;
         });
     report.warn(
         "queries_outside",
-        {{"outside", outside}, {"queries", queries}, {"has_values", has_values}});
+        {{"outside", outside}, {"queries", queries_}, {"has_values", has_values}});
     return;
   }
-  const std::uint64_t weak =
-      report.getCount("bridged") + report.getCount("rim") + report.getCount("reduced");
-  if (2 * weak > queries - outside) {
-    report.warn("weak_support", {{"weak", weak}, {"queries", queries}});
+  const std::size_t weak = count(FieldSupport::Bridged) + count(FieldSupport::Rim) +
+                           count(FieldSupport::Reduced);
+  if (2 * weak > queries_ - outside) {
+    report.warn("weak_support", {{"weak", weak}, {"queries", queries_}});
     return;
   }
   for (const Field& field : fields_)

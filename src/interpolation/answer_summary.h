@@ -7,6 +7,7 @@
 #include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/interpolation/field_interpolation.h>
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -44,8 +45,7 @@ public:
 
   /** \brief One warning where most of the queries lie outside of the data, most of the
    * values rest on little, or most errors are as large as the field varies; and one
-   * where values lie far beyond those of the samples.
-   * \param report has the counts of FieldInterpolation */
+   * where values lie far beyond those of the samples. */
   void
   warn(Report& report) const;
 
@@ -53,7 +53,16 @@ private:
   void
   warnOfSupport(Report& report) const;
 
+  /** Answers of a kind. */
+  std::size_t
+  count(FieldSupport kind) const
+  {
+    return supports_[static_cast<std::size_t>(kind)];
+  }
+
   std::vector<Field> fields_;
+  std::size_t queries_ = 0;
+  std::array<std::size_t, 8> supports_{}; ///< by FieldSupport
 };
 
 } // namespace pcl_uvol::detail

@@ -109,7 +109,7 @@ forPointsOf(const SampleSet& samples, std::size_t sample, const Visit& visit)
 
 } // namespace
 
-void
+std::uint64_t
 computeDerivatives(const CloudView& cloud,
                    const Columns& columns,
                    unsigned threads,
@@ -154,6 +154,7 @@ computeDerivatives(const CloudView& cloud,
   });
   report.count("reduced_fits", reduced);
   report.count("unknown_derivatives", unknown);
+  return reduced;
 }
 
 } // namespace pcl_uvol::detail

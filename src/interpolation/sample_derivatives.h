@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -47,10 +48,12 @@ using TakeDerivatives =
  * planes or lines, and "unknown_derivatives", of samples with a field whose derivatives
  * are NaN
  *
+ * \return samples that lie on few planes or lines
+ *
  * \throws InvalidArgument for fewer than four distinct samples with values
  *
  * Memory: about 50 bytes per sample, and 8 per sample and field. */
-PCL_UVOL_EXPORTS void
+PCL_UVOL_EXPORTS std::uint64_t
 computeDerivatives(const CloudView& cloud,
                    const std::vector<std::vector<double>>& columns,
                    unsigned threads,

@@ -48,17 +48,22 @@ ExaminedIsopoints::contain(const Position& root) const
 }
 
 void
-countExamined(const std::vector<std::uint8_t>& supports, Report& report)
+countExamined(const std::vector<std::uint8_t>& supports,
+              SurfaceTally& tally,
+              Report& report)
 {
-  const auto count = [&](const char* name, IsoSupport support) {
-    report.count(
-        name,
-        static_cast<std::uint64_t>(std::count(
-            supports.begin(), supports.end(), static_cast<std::uint8_t>(support))));
+  const auto count = [&](IsoSupport support) {
+    return static_cast<std::uint64_t>(std::count(
+        supports.begin(), supports.end(), static_cast<std::uint8_t>(support)));
   };
+  const std::uint64_t bridged = count(IsoSupport::Bridged),
+                      rim = count(IsoSupport::Rim);
+  tally.examined += supports.size();
+  tally.examined_bridged += bridged;
+  tally.examined_rim += rim;
   report.count("examined", supports.size());
-  count("examined_bridged", IsoSupport::Bridged);
-  count("examined_rim", IsoSupport::Rim);
+  report.count("examined_bridged", bridged);
+  report.count("examined_rim", rim);
 }
 
 } // namespace pcl_uvol

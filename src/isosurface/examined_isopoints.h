@@ -6,6 +6,7 @@
 #include "common/sketch.h"
 #include "neighbors/sample_set.h"
 #include <pcl_uvol/common/stage.h>
+#include <pcl_uvol/isosurface/isosurface_extraction.h>
 
 #include <cstdint>
 #include <vector>
@@ -48,9 +49,13 @@ private:
   std::vector<Position> roots_; // in order
 };
 
-/** \brief Count "examined", "examined_bridged" and "examined_rim".
- * \param supports one per isopoint that was examined */
+/** \brief Count those that were examined, those in gaps and those on rims.
+ * \param supports one per isopoint that was examined
+ * \param tally gets the numbers
+ * \param report gets them as "examined", "examined_bridged" and "examined_rim" */
 void
-countExamined(const std::vector<std::uint8_t>& supports, Report& report);
+countExamined(const std::vector<std::uint8_t>& supports,
+              SurfaceTally& tally,
+              Report& report);
 
 } // namespace pcl_uvol

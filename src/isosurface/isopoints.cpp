@@ -57,6 +57,7 @@ std::vector<EdgeKey>
 findEdges(const IsopointInput& input,
           const std::vector<std::uint32_t>& crossing,
           float isovalue,
+          SurfaceTally& tally,
           Report& report)
 {
   StepTimer step(report, "neighborhoods", crossing.size());
@@ -84,6 +85,7 @@ findEdges(const IsopointInput& input,
         }
         step.advance(end - begin);
       });
+  tally.spikes += spikes;
   report.count("spikes", spikes);
   parallelSort(edges.begin(), edges.end(), input.threads, std::less<EdgeKey>());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
@@ -211,6 +213,7 @@ examineSome(const IsopointInput& input,
             float isovalue,
             const IsoEdges& edges,
             const std::vector<PointIso>& points,
+            SurfaceTally& tally,
             Report& report)
 {
   ExaminedCandidates candidates;
@@ -230,7 +233,7 @@ examineSome(const IsopointInput& input,
   supports.reserve(some.size());
   for (const PointIso& point : some)
     supports.push_back(point.support);
-  countExamined(supports, report);
+  countExamined(supports, tally, report);
 }
 
 } // namespace
@@ -241,6 +244,7 @@ appendIsopoints(const IsopointInput& input,
                 float isovalue,
                 pcl::PointCloud<PointIso>& isopoints,
                 IsoEdges& edges,
+                SurfaceTally& tally,
                 Report& report)
 {
   std::vector<std::uint32_t> crossing;
@@ -248,7 +252,7 @@ appendIsopoints(const IsopointInput& input,
     const StepTimer timer(report, "crossing_pairs");
     crossing = input.candidates.findCrossing(input.ranges, isovalue, input.threads);
   }
-  const std::vector<EdgeKey> keys = findEdges(input, crossing, isovalue, report);
+  const std::vector<EdgeKey> keys = findEdges(input, crossing, isovalue, tally, report);
   std::vector<PointIso> points(keys.size());
   IsoEdges point_edges(keys.size());
   {
@@ -257,16 +261,17 @@ appendIsopoints(const IsopointInput& input,
       for (std::size_t i = begin; i < end; ++i)
         placeIsopoint(input, keys[i], isovalue, points[i], point_edges[i]);
     });
+    tally.crossing += crossing.size();
     report.count("crossing_samples", crossing.size());
     report.count("edges", keys.size());
     report.count("coincident", dropCoincident(points, point_edges, input.threads));
   }
   if (input.interpolation == Interpolation::Linear)
-    examineSome(input, isovalue, point_edges, points, report);
+    examineSome(input, isovalue, point_edges, points, tally, report);
   else
     smoothIsopoints(input, isovalue, point_edges, points, report);
   if (input.interpolation == Interpolation::Auto)
-    removeContradicted(input, isovalue, points, point_edges, report);
+    removeContradicted(input, isovalue, points, point_edges, tally, report);
   for (IsoEdge& edge : point_edges) {
     edge.first = sources[edge.first];
     edge.second = sources[edge.second];

@@ -35,11 +35,13 @@ using EdgeKey = std::uint64_t;
  * both.
  * \param crossing samples that touch one of the other side: no others can have it for a
  * neighbour
- * \param report gets the count of "spikes" among them, see SpikeTest */
+ * \param tally gets the number of spikes among them, see SpikeTest
+ * \param report gets it as "spikes" */
 std::vector<EdgeKey>
 findEdges(const IsopointInput& input,
           const std::vector<std::uint32_t>& crossing,
           float isovalue,
+          SurfaceTally& tally,
           Report& report);
 
 /** \brief Linear interpolation along an edge and the outside vector (2.4). */
@@ -60,6 +62,7 @@ mergeCoincident(const std::vector<Position>& positions,
 
 /** \brief Append the isopoints of one isovalue and their edges.
  * \param sources input index of each sample
+ * \param tally gets what is counted of them
  * \param report gets "crossing_samples", "edges", "spikes", "coincident" and times; of
  * linear isopoints "examined", "examined_bridged" and "examined_rim": of how many, all
  * or some in all parts, fits tell the support, and what it is */
@@ -69,6 +72,7 @@ appendIsopoints(const IsopointInput& input,
                 float isovalue,
                 pcl::PointCloud<PointIso>& isopoints,
                 IsoEdges& edges,
+                SurfaceTally& tally,
                 Report& report);
 
 } // namespace pcl_uvol

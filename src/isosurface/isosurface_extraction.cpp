@@ -89,6 +89,17 @@ IsosurfaceExtractionBase::forgetSamples()
 }
 
 void
+SurfaceTally::add(const SurfaceTally& other)
+{
+  crossing += other.crossing;
+  spikes += other.spikes;
+  contradicted += other.contradicted;
+  examined += other.examined;
+  examined_bridged += other.examined_bridged;
+  examined_rim += other.examined_rim;
+}
+
+void
 IsosurfaceExtractionBase::updateScalar(const CloudView& cloud,
                                        const pcl::Indices& indices)
 {
@@ -155,6 +166,7 @@ IsosurfaceExtractionBase::extractFrom(const CloudView& cloud,
   checkParameters(parameters_);
   detail::checkIndices(indices, cloud.count, "IsosurfaceExtraction");
   startReport();
+  tally_ = {};
   updateScalar(cloud, indices);
   updateCandidates();
 
@@ -173,7 +185,8 @@ IsosurfaceExtractionBase::extractFrom(const CloudView& cloud,
     const auto rounded = static_cast<float>(scalar_->frame.apply(isovalue));
     warnIfOutside(isovalue, parameters_.field, range, scalar_->frame, report_);
     const std::size_t first = found.size();
-    appendIsopoints(input, scalar_->samples.sources, rounded, found, edges, report_);
+    appendIsopoints(
+        input, scalar_->samples.sources, rounded, found, edges, tally_, report_);
     for (std::size_t i = first; i < found.size(); ++i)
       found[i].isovalue = static_cast<float>(isovalue);
   }

@@ -61,6 +61,7 @@ removeContradicted(const IsopointInput& input,
                    float isovalue,
                    std::vector<PointIso>& points,
                    IsoEdges& edges,
+                   SurfaceTally& tally,
                    Report& report)
 {
   std::vector<std::uint8_t> contradicted(points.size());
@@ -77,6 +78,7 @@ removeContradicted(const IsopointInput& input,
       points[kept] = points[i];
       edges[kept++] = edges[i];
     }
+  tally.contradicted += points.size() - kept;
   if (kept < points.size())
     report.count("contradicted", points.size() - kept);
   points.resize(kept);

@@ -39,12 +39,14 @@ private:
 };
 
 /** \brief Remove the isopoints of one isovalue that samples contradict.
- * \param report gets the count "contradicted", unless it is 0 */
+ * \param tally gets the number of those
+ * \param report gets it as "contradicted", unless it is 0 */
 void
 removeContradicted(const IsopointInput& input,
                    float isovalue,
                    std::vector<PointIso>& points,
                    IsoEdges& edges,
+                   SurfaceTally& tally,
                    Report& report);
 
 } // namespace pcl_uvol

@@ -56,6 +56,7 @@ public:
   PieceIsopoints(const Piece& piece,
                  const IsosurfaceParameters& settings,
                  unsigned threads,
+                 SurfaceTally& tally,
                  Report& report);
 
   /** They are small at first, and grow as long as the nearest samples may lie beyond
@@ -104,6 +105,7 @@ private:
   const Piece& piece_;
   const IsosurfaceParameters& settings_;
   unsigned threads_;
+  SurfaceTally& tally_;
   Report& report_;
   std::vector<std::vector<GlobalIsopoint>> found_;
   std::vector<Pending> pending_;
@@ -112,10 +114,12 @@ private:
 PieceIsopoints::PieceIsopoints(const Piece& piece,
                                const IsosurfaceParameters& settings,
                                unsigned threads,
+                               SurfaceTally& tally,
                                Report& report)
     : piece_(piece)
     , settings_(settings)
     , threads_(threads)
+    , tally_(tally)
     , report_(report)
     , found_(settings.isovalues.size())
 {
@@ -150,8 +154,9 @@ PieceIsopoints::find(const IsopointInput& input, std::size_t which)
     const StepTimer timer(report_, "crossing_pairs");
     crossing = input.candidates.findCrossing(input.ranges, isovalue, threads_);
   }
+  tally_.crossing += crossing.size();
   report_.count("crossing_samples", crossing.size());
-  for (const EdgeKey key : findEdges(input, crossing, isovalue, report_)) {
+  for (const EdgeKey key : findEdges(input, crossing, isovalue, tally_, report_)) {
     PointIso point;
     IsoEdge edge;
     placeIsopoint(input, key, isovalue, point, edge);
@@ -304,6 +309,7 @@ void
 mergeIsopoints(std::vector<GlobalIsopoint>& isopoints,
                Interpolation interpolation,
                unsigned threads,
+               SurfaceTally& tally,
                Report& report)
 {
   parallelSort(isopoints.begin(), isopoints.end(), threads, isBefore);
@@ -340,8 +346,10 @@ mergeIsopoints(std::vector<GlobalIsopoint>& isopoints,
   const auto end = std::remove_if(isopoints.begin(),
                                   isopoints.end(),
                                   [](const auto& one) { return one.is_contradicted; });
-  if (end != isopoints.end())
-    report.count("contradicted", static_cast<std::uint64_t>(isopoints.end() - end));
+  const auto contradicted = static_cast<std::uint64_t>(isopoints.end() - end);
+  tally.contradicted += contradicted;
+  if (contradicted > 0)
+    report.count("contradicted", contradicted);
   isopoints.erase(end, isopoints.end());
 }
 
@@ -350,6 +358,7 @@ mergeIsopoints(std::vector<GlobalIsopoint>& isopoints,
 void
 countTogether(std::vector<GlobalIsopoint>& isopoints,
               Communicator& communicator,
+              SurfaceTally& tally,
               Report& report)
 {
   ExaminedCandidates own, all;
@@ -363,7 +372,7 @@ countTogether(std::vector<GlobalIsopoint>& isopoints,
       supports.push_back(isopoint.support);
     isopoint.support = static_cast<std::uint8_t>(IsoSupport::Unknown);
   }
-  countExamined(supports, report);
+  countExamined(supports, tally, report);
 }
 
 } // namespace
@@ -414,9 +423,9 @@ IsosurfaceStage::canFindIn(const NodeRanges::Range& range) const
 }
 
 std::unique_ptr<PieceTask>
-IsosurfaceStage::start(const Piece& piece, unsigned threads, Report& report) const
+IsosurfaceStage::start(const Piece& piece, unsigned threads, Report& report)
 {
-  return std::make_unique<PieceIsopoints>(piece, parameters_, threads, report);
+  return std::make_unique<PieceIsopoints>(piece, parameters_, threads, tally_, report);
 }
 
 Position
@@ -437,16 +446,16 @@ IsosurfaceStage::receive(std::size_t list,
   std::vector<GlobalIsopoint>& isopoints = received_[list];
   isopoints.resize(count);
   read(isopoints.data());
-  mergeIsopoints(isopoints, parameters_.interpolation, threads, report);
+  mergeIsopoints(isopoints, parameters_.interpolation, threads, tally_, report);
   report.count("isopoints", isopoints.size());
 }
 
 std::vector<std::vector<GlobalIsopoint>>
-IsosurfaceStage::take(Communicator& communicator, Report& report) &&
+IsosurfaceStage::take(Communicator& communicator, Report& report)
 {
   if (parameters_.interpolation == Interpolation::Linear)
     for (std::vector<GlobalIsopoint>& isopoints : received_)
-      countTogether(isopoints, communicator, report);
+      countTogether(isopoints, communicator, tally_, report);
   return std::move(received_);
 }
 

@@ -97,7 +97,7 @@ public:
    * pieces are found there as well.
    * \param report gets the times of IsosurfaceExtraction */
   std::unique_ptr<PieceTask>
-  start(const Piece& piece, unsigned threads, Report& report) const override;
+  start(const Piece& piece, unsigned threads, Report& report) override;
 
   Position
   findPlace(const void* record) const override;
@@ -115,15 +115,23 @@ public:
 
   /** \brief What was received, per isovalue, ordered by edges. By all processes.
    * \param report gets the counts of those linear ones of this process that are
-   * examined, see countExamined */
+   * examined, see countExamined, as getTally() does */
   std::vector<std::vector<GlobalIsopoint>>
-  take(Communicator& communicator, Report& report) &&;
+  take(Communicator& communicator, Report& report);
+
+  /** \brief Of this process, once its isopoints are taken. */
+  const SurfaceTally&
+  getTally() const
+  {
+    return tally_;
+  }
 
 private:
   IsosurfaceParameters parameters_; // as the samples are: in their unit and frame
   std::vector<double> isovalues_;   // of the field
   ValueFrame frame_;
   std::vector<std::vector<GlobalIsopoint>> received_;
+  SurfaceTally tally_;
 };
 
 } // namespace pcl_uvol

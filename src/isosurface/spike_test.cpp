@@ -73,6 +73,7 @@ void
 countSpikes(const IsopointInput& input,
             const std::vector<std::uint32_t>& crossing,
             float isovalue,
+            SurfaceTally& tally,
             Report& report)
 {
   const StepTimer timer(report, "spike_test");
@@ -86,7 +87,9 @@ countSpikes(const IsopointInput& input,
         for (std::size_t i = begin; i < end; ++i)
           found.back() += test.isSpike(crossing[i]);
       });
-  report.count("spikes", std::accumulate(spikes.begin(), spikes.end(), std::size_t(0)));
+  const std::size_t all = std::accumulate(spikes.begin(), spikes.end(), std::size_t(0));
+  tally.spikes += all;
+  report.count("spikes", all);
 }
 
 } // namespace pcl_uvol

@@ -55,11 +55,14 @@ private:
   std::vector<float> others_;
 };
 
-/** \brief Count "spikes" among the samples next to an isovalue. */
+/** \brief Count spikes among the samples next to an isovalue.
+ * \param tally gets their number
+ * \param report gets it as "spikes" */
 void
 countSpikes(const IsopointInput& input,
             const std::vector<std::uint32_t>& crossing,
             float isovalue,
+            SurfaceTally& tally,
             Report& report);
 
 } // namespace pcl_uvol

@@ -106,7 +106,7 @@ public:
     finish();
     report_.count("steps", summary_.steps.size());
     report_.count("band_samples", band_->centers.size());
-    LevelSet level_set{expandToCloud(phi_), computeDeviations(), {}, summary_, {}};
+    LevelSet level_set{expandToCloud(phi_), computeDeviations(), {}, summary_, {}, {}};
     level_set.sources = std::move(input_.sources);
     return level_set;
   }
@@ -578,7 +578,9 @@ detail::evolveLevelSet(const CloudView& cloud,
   LevelSetParameters along_axes = parameters;
   along_axes.initial = turnShape(parameters.initial, axes);
   LevelSetInput input = readInput(turned, indices, along_axes, threads, report);
-  const SamplingSummary sampling = examineSurface(input, is_examined, threads, report);
+  SurfaceTally tally;
+  const SamplingSummary sampling =
+      examineSurface(input, is_examined, threads, tally, report);
   LevelSet level_set = LevelSetRun(turned,
                                    std::move(input),
                                    along_axes,
@@ -588,6 +590,7 @@ detail::evolveLevelSet(const CloudView& cloud,
                                    report)
                            .run();
   level_set.sampling = sampling;
+  level_set.tally = tally;
   return level_set;
 }
 

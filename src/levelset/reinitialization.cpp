@@ -34,6 +34,7 @@ distanceToZeroLevel(const Band& band,
   const NodeRanges ranges = samples.getTree().computeRanges(phi, threads);
   pcl::PointCloud<PointIso> isopoints;
   IsoEdges edges;
+  SurfaceTally tally;
   Report ignored;
   const TouchingCells candidates(samples);
   appendIsopoints({samples,
@@ -48,6 +49,7 @@ distanceToZeroLevel(const Band& band,
                   0.0f,
                   isopoints,
                   edges,
+                  tally,
                   ignored);
   std::vector<float> distance(band.places(), 0.0f);
   band.forPlaces(

@@ -12,7 +12,10 @@ namespace {
 
 /** Count what those rest on that an extraction of linear isopoints examines. */
 void
-countExaminedRoots(const LevelSetInput& input, unsigned threads, Report& report)
+countExaminedRoots(const LevelSetInput& input,
+                   unsigned threads,
+                   SurfaceTally& tally,
+                   Report& report)
 {
   const NodeRanges ranges = input.samples->getTree().computeRanges(input.f, threads);
   const TouchingCells candidates(*input.samples);
@@ -28,9 +31,10 @@ countExaminedRoots(const LevelSetInput& input, unsigned threads, Report& report)
   IsoEdges edges;
   Report own; // the level set counts for itself
   own.progress = report.progress;
-  appendIsopoints(of_isopoints, input.sources, 0.0f, isopoints, edges, own);
-  for (const char* const name : {"examined", "examined_bridged", "examined_rim"})
-    report.count(name, own.getCount(name));
+  appendIsopoints(of_isopoints, input.sources, 0.0f, isopoints, edges, tally, own);
+  report.count("examined", tally.examined);
+  report.count("examined_bridged", tally.examined_bridged);
+  report.count("examined_rim", tally.examined_rim);
 }
 
 } // namespace
@@ -39,12 +43,13 @@ SamplingSummary
 examineSurface(const LevelSetInput& input,
                bool is_examined,
                unsigned threads,
+               SurfaceTally& tally,
                Report& report)
 {
   const StepTimer timer(report, "sampling");
   const SamplingSummary sampling = summarizeSampling(*input.samples, threads);
   if (is_examined && sampling.most != LocalDimension::Volume)
-    countExaminedRoots(input, threads, report);
+    countExaminedRoots(input, threads, tally, report);
   return sampling;
 }
 

@@ -2,6 +2,8 @@
 #include "mesh/measure_warnings.h"
 
 #include "common/number_range.h"
+#include "mesh/measured_mesh.h"
+#include <pcl_uvol/common/point_types.h>
 
 #include <Eigen/Eigenvalues>
 
@@ -96,6 +98,22 @@ isFlat(const SurfaceIntegrals& integrals, const PieceMeasures& piece)
       Eigen::EigenvaluesOnly);
   const double square = rounding * largest;
   return solver.eigenvalues()[0] <= square * square;
+}
+
+void
+warnOfSupport(const CloudView& vertices, Report& report)
+{
+  const auto support = findScalar(vertices, "support"),
+             cap = findScalar(vertices, "cap");
+  std::size_t weak = 0;
+  for (std::size_t i = 0; support && i < vertices.count; ++i) {
+    const double kind = support->read(vertices.point(i));
+    const bool is_weak = kind == static_cast<double>(IsoSupport::Bridged) ||
+                         kind == static_cast<double>(IsoSupport::Rim);
+    weak += is_weak && !(cap && cap->read(vertices.point(i)) > 0.0);
+  }
+  if (2 * weak > vertices.count)
+    report.warn("unconstrained_measures");
 }
 
 void

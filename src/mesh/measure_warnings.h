@@ -28,6 +28,11 @@ struct UnsurePieces {
   bool are_left_out = false;
 };
 
+/** \brief Warn where most vertices lie between lines of samples or beside gaps, as their
+ * field `support` tells, if they have it. Those on caps do not count. */
+void
+warnOfSupport(const CloudView& vertices, Report& report);
+
 /** \brief Warn of unsure pieces. */
 void
 warnOfUnsure(const UnsurePieces& found, Report& report);

@@ -204,18 +204,17 @@ measure(const WorkingMesh& mesh,
     }
   });
   double area = 0.0, on_caps = 0.0;
-  std::uint64_t folds = 0, slivers = 0;
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     const TriangleShape& shape = shapes[i];
     area += shape.area;
     on_caps += mesh.regions[i] == surface_region ? 0.0 : shape.area;
-    folds += shape.is_folded;
-    slivers += shape.angle < sliver_angle;
+    surface.folds += shape.is_folded;
+    surface.slivers += shape.angle < sliver_angle;
     surface.smallest_angle = std::min(surface.smallest_angle, shape.angle);
   }
   surface.cap_part = area > 0.0 ? on_caps / area : 0.0;
-  report.count("folds", folds);
-  report.count("slivers", slivers);
+  report.count("folds", surface.folds);
+  report.count("slivers", surface.slivers);
   report.count("cap_vertices",
                static_cast<std::uint64_t>(
                    std::count(surface.is_on_cap.begin(), surface.is_on_cap.end(), 1)));

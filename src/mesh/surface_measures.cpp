@@ -227,6 +227,7 @@ public:
     const double part = area_ > 0.0 ? without_error_ / area_ : 0.0;
     if (part > much_without_error)
       report.warn("area_without_error", {{"percent", std::lround(100.0 * part)}});
+    detail::warnOfSupport(vertices_, report);
     detail::warnOfMeasures(figures, report);
     detail::warnOfUnsure(unsure_, report);
   }

@@ -65,6 +65,9 @@ SurfaceTriangles::append(const SurfaceTriangles& other)
   join(other.pieces, pieces);
   smallest_angle = std::min(smallest_angle, other.smallest_angle);
   cap_part = std::max(cap_part, other.cap_part);
+  folds += other.folds;
+  slivers += other.slivers;
+  tally.add(other.tally);
 }
 
 namespace detail {
@@ -155,16 +158,14 @@ warnOfCaps(const SurfaceTriangles& surface,
 
 /** \param is_even whether triangles were made even, so that slivers are a defect */
 void
-warnOfFolds(bool is_even, Report& report)
+warnOfFolds(const SurfaceTriangles& mesh, bool is_even, Report& report)
 {
-  const std::uint64_t folds = report.getCount("folds"),
-                      slivers = is_even ? report.getCount("slivers") : 0,
-                      triangles = report.getCount("triangles");
-  if (static_cast<double>(folds + slivers) >
-      many_folds * static_cast<double>(triangles))
+  const std::uint64_t slivers = is_even ? mesh.slivers : 0;
+  if (static_cast<double>(mesh.folds + slivers) >
+      many_folds * static_cast<double>(mesh.triangles.size()))
     report.warn("folds",
-                {{"triangles", triangles},
-                 {"folds", folds},
+                {{"triangles", mesh.triangles.size()},
+                 {"folds", mesh.folds},
                  {"is_even", is_even},
                  {"slivers", slivers}});
 }
@@ -206,7 +207,8 @@ makeSurfaceMesh(const CloudView& cloud,
                   crossing.size(),
                   meshBytes(static_cast<double>(crossing.size())));
     report.count("crossing_samples", crossing.size());
-    countSpikes(input, crossing, rounded, report);
+    all.tally.crossing += crossing.size();
+    countSpikes(input, crossing, rounded, all.tally, report);
     WorkingMesh mesh = makeBandSurface(input, rounded, report);
     if (parameters.meshing.remesh == Remeshing::Even)
       remesh(mesh, parameters.meshing.edge_length, threads, report);
@@ -224,7 +226,7 @@ makeSurfaceMesh(const CloudView& cloud,
   }
   report.setCount("vertices", all.vertices.size());
   report.setCount("triangles", all.triangles.size());
-  warnOfFolds(parameters.meshing.remesh == Remeshing::Even, report);
+  warnOfFolds(all, parameters.meshing.remesh == Remeshing::Even, report);
   return all;
 }
 

@@ -113,7 +113,8 @@ describePositions(const Dataset& dataset,
                                         toPosition(stretch.scale),
                                         threads,
                                         report);
-  statistics.duplicates = report.getCount("duplicates");
+  for (const SampleSet::Merged& merged : samples->getMerged())
+    statistics.duplicates += merged.members.size() - 1;
   statistics.warnings = report.warnings;
   const auto& positions = samples->getPositions();
   const LengthUnit& unit = samples->getUnit();

@@ -80,23 +80,26 @@ public:
     IsosurfaceParameters extraction = withErrors(parameters);
     if (interpolation_ == Interpolation::Auto)
       extraction.interpolation = Interpolation::Auto;
-    auto [isopoints, sampling] =
+    RankIsosurface found =
         extractFromRanks(part_->readSamples(field, frame, threads_, report),
                          extraction,
                          frame,
                          communicator_,
                          threads_,
                          report);
-    warnOfConflicts(communicator_, report);
+    read_ = found.samples;
+    warnOfConflicts(read_, communicator_, report);
     if (is_gathered_)
-      isopoints = gatherIsopoints(std::move(isopoints), communicator_, threads_);
-    part_->numberByPoints(isopoints);
-    EdgeEnds ends = findEdgeEnds(isopoints);
+      found.isopoints =
+          gatherIsopoints(std::move(found.isopoints), communicator_, threads_);
+    part_->numberByPoints(found.isopoints);
+    EdgeEnds ends = findEdgeEnds(found.isopoints);
     ExtractedSurface surface;
-    surface.sampling = sampling;
+    surface.sampling = read_.sampling;
+    surface.triangles.tally = found.tally;
     surface.triangles.edges = std::move(ends.edges);
-    for (std::size_t i = 0; i < isopoints.size(); ++i)
-      for (const GlobalIsopoint& isopoint : isopoints[i])
+    for (std::size_t i = 0; i < found.isopoints.size(); ++i)
+      for (const GlobalIsopoint& isopoint : found.isopoints[i])
         surface.triangles.vertices.push_back(
             toPointIso(isopoint, parameters.isosurface.isovalues[i]));
     const auto samples = std::make_shared<Dataset>(withoutCloud(points));
@@ -116,7 +119,7 @@ public:
   void
   leave(const IsosurfacePipelineParameters&, IsosurfaceResult& result) override
   {
-    part_->finish(communicator_, result);
+    part_->finish(read_, communicator_, result);
   }
 
 private:
@@ -125,6 +128,7 @@ private:
   bool is_gathered_;
   unsigned threads_;
   std::optional<PartInBox> part_;
+  StageSamples read_;
   Interpolation interpolation_ = Interpolation::Auto; ///< as asked for
 };
 

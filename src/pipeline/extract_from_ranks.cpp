@@ -22,9 +22,12 @@ extractFromRanks(Samples&& samples,
   const LengthUnit unit = normalizeTogether(
       samples, toPosition(settings.scale), communicator, threads, report);
   IsosurfaceStage stage(settings, unit, frame);
-  const SamplingSummary sampling =
-      runOnRanks(stage, std::move(samples), communicator, threads, report);
-  return {std::move(stage).take(communicator, report), toInput(sampling, unit)};
+  RankIsosurface found;
+  found.samples = runOnRanks(stage, std::move(samples), communicator, threads, report);
+  found.samples.sampling = toInput(found.samples.sampling, unit);
+  found.isopoints = stage.take(communicator, report);
+  found.tally = stage.getTally();
+  return found;
 }
 
 std::vector<std::vector<GlobalIsopoint>>

@@ -3,7 +3,7 @@
 // samples.
 #pragma once
 
-#include "distributed/samples.h"
+#include "distributed/run_stage.h"
 #include "isosurface/piece_isopoints.h"
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/distributed/communicator.h>
@@ -16,7 +16,8 @@ namespace pcl_uvol {
 /** \brief What one of several processes has of an isosurface. */
 struct RankIsosurface {
   std::vector<std::vector<GlobalIsopoint>> isopoints; ///< per isovalue
-  SamplingSummary sampling; ///< of the samples of all processes
+  StageSamples samples;
+  SurfaceTally tally;
 };
 
 /** \brief Extract the isosurface of the samples of all processes.

@@ -97,10 +97,11 @@ extractOutOfCore(PointSource& points,
   ReadSamples read = readPoints(points, settings, out_of_core, report);
   IsosurfaceStage stage(settings, read.unit, read.frame);
   OutOfCoreIsosurface surface;
-  surface.sampling = toInput(
-      runOutOfCore(stage, std::move(read.samples), out_of_core, report), read.unit);
+  surface.read = runOutOfCore(stage, std::move(read.samples), out_of_core, report);
+  surface.read.sampling = toInput(surface.read.sampling, read.unit);
   SelfCommunicator alone;
-  const auto found = std::move(stage).take(alone, report);
+  const auto found = stage.take(alone, report);
+  surface.tally = stage.getTally();
   for (std::size_t i = 0; i < found.size(); ++i)
     for (const GlobalIsopoint& isopoint : found[i])
       surface.isopoints.push_back(toPointIso(isopoint, settings.isovalues[i]));
@@ -140,14 +141,15 @@ public:
   {
     OutOfCoreIsosurface found =
         extractOutOfCore(points_, withErrors(parameters), settings_, report);
-    warnOfConflicts(alone_, report);
+    warnOfConflicts(found.read, alone_, report);
     const auto samples = std::make_shared<Dataset>(points_.getHeader());
     samples->cloud = std::move(found.samples);
     ExtractedSurface surface;
     surface.samples = samples;
     surface.triangles.vertices = std::move(found.isopoints);
     surface.triangles.edges = std::move(found.edges);
-    surface.sampling = found.sampling;
+    surface.triangles.tally = found.tally;
+    surface.sampling = found.read.sampling;
     return surface;
   }
 

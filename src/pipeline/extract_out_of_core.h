@@ -23,7 +23,8 @@ struct PCL_UVOL_EXPORTS OutOfCoreIsosurface {
   pcl::PointCloud<PointIso> isopoints;
   IsoEdges edges;              ///< their ends as indices into samples
   pcl::PCLPointCloud2 samples; ///< the points of the source that edges end at
-  SamplingSummary sampling;    ///< of all points
+  StageSamples read;           ///< all points
+  SurfaceTally tally;
 };
 
 /** \brief The least bound in bytes that extractOutOfCore() takes for that many samples

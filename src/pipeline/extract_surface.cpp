@@ -2,6 +2,7 @@
 #include "pipeline/extract_surface.h"
 
 #include "neighbors/sampling.h"
+#include "pipeline/extract_points.h"
 #include "pipeline/isopoint_choice.h"
 #include "pipeline/zero_level.h"
 #include <pcl_uvol/levelset/level_set_evolution.h>
@@ -53,14 +54,7 @@ extractPlain(const PipelineInput& input,
                                    parameters.isovalues,
                                    threads,
                                    report);
-  extraction.setParameters(parameters);
-  extraction.setNumberOfThreads(threads);
-  extraction.setProgressCallback(report.progress);
-  SurfaceTriangles found;
-  extraction.extract(found.vertices);
-  report.merge(extraction.getReport());
-  found.edges = extraction.getEdges();
-  return found;
+  return extractPoints(extraction, parameters, threads, report);
 }
 
 /** One isovalue after the other, each by a level set of its own.

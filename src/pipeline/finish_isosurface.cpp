@@ -116,9 +116,12 @@ putIsovalues(const SurfaceTriangles& found,
   }
 }
 
-/** Count isopoints again whose support an extraction has counted. */
+/** Count isopoints again whose support an extraction has counted.
+ * \param are_fitted isopoints on fits have a support */
 void
-countSupports(const pcl::PointCloud<PointIso>& isopoints, Report& report)
+countSupports(const pcl::PointCloud<PointIso>& isopoints,
+              bool are_fitted,
+              Report& report)
 {
   for (const auto& [name, support] : {std::pair("bridged", IsoSupport::Bridged),
                                       std::pair("rim", IsoSupport::Rim),
@@ -127,7 +130,7 @@ countSupports(const pcl::PointCloud<PointIso>& isopoints, Report& report)
                            const PointIso& point) { return point.support == wanted; };
     const auto left = static_cast<std::uint64_t>(
         std::count_if(isopoints.begin(), isopoints.end(), is_so));
-    if (left > 0 || report.getCount(name) > 0)
+    if (left > 0 || (are_fitted && support != IsoSupport::Predicted))
       report.setCount(name, left);
   }
 }
@@ -167,10 +170,13 @@ finishIsosurface(const Dataset& samples,
     gaps->judge(parameters, threads, isopoints, edges, choice, report);
   const KnownIsopoints known(
       view, parameters.isosurface, sampling, gaps ? &gaps->getSummary() : nullptr);
-  dropIsopoints(isopoints, edges, choice, parameters, known, report);
+  const DroppedIsopoints dropped =
+      dropIsopoints(isopoints, edges, choice, parameters, known, report);
   if (!parameters.mesh) // which has counted vertices that are not on caps
-    countSupports(isopoints, report);
-  const SurfaceGrounds examined = findGrounds(report);
+    countSupports(isopoints,
+                  parameters.isosurface.interpolation != Interpolation::Linear,
+                  report);
+  const SurfaceGrounds examined = findGrounds(found.tally);
   const SurfaceGrounds own = examined.known > 0
                                  ? examined
                                  : findGrounds(isopoints,
@@ -179,6 +185,9 @@ finishIsosurface(const Dataset& samples,
                                                found.is_on_cap,
                                                PeriodicBox{{}, sidesOf(parameters)});
   warnOfGuesses(addTogether(own, communicator), role, parameters, sampling, report);
+  if (role == SurfaceRole::Isosurface)
+    warnOfLosses(
+        parameters, found.tally, dropped, isopoints.size(), communicator, report);
   report.setCount("isopoints", isopoints.size());
   IsosurfaceResult result;
   result.isopoints = countPerIsovalue(isopoints, parameters.isosurface.isovalues);

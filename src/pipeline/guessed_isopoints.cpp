@@ -61,12 +61,12 @@ findGrounds(const pcl::PointCloud<PointIso>& isopoints,
 }
 
 SurfaceGrounds
-findGrounds(const Report& linear_extraction)
+findGrounds(const SurfaceTally& tally)
 {
   SurfaceGrounds grounds;
-  grounds.known = linear_extraction.getCount("examined");
-  grounds.beside_gaps = linear_extraction.getCount("examined_rim");
-  grounds.guessed = linear_extraction.getCount("examined_bridged");
+  grounds.known = tally.examined;
+  grounds.beside_gaps = tally.examined_rim;
+  grounds.guessed = tally.examined_bridged;
   return grounds;
 }
 
@@ -82,25 +82,20 @@ addTogether(const SurfaceGrounds& own, Communicator& communicator)
 std::optional<Message>
 tellGuesses(const SurfaceGrounds& grounds,
             const std::optional<SamplingSummary>& sampling,
-            Message guess)
+            Message guess,
+            bool have_border)
 {
   const bool lie_all_around = sampling && sampling->most == LocalDimension::Volume;
   const std::size_t at_border =
                         grounds.at_border + (lie_all_around ? grounds.beside_gaps : 0),
                     all = grounds.at_border + grounds.beside_gaps + grounds.guessed;
-  if (2 * at_border > grounds.known)
+  if (have_border && 2 * at_border > grounds.known)
     return withPercent({"isopoints_at_border", {}}, at_border, grounds.known);
   if (2 * all <= grounds.known)
     return std::nullopt;
-  if (lie_all_around && at_border > grounds.guessed)
+  if (have_border && lie_all_around && at_border > grounds.guessed)
     guess = {"isopoints_beside_samples", {}};
   return withPercent(std::move(guess), all, grounds.known);
-}
-
-std::optional<Message>
-tellSmoothedGuesses(const Report& evolution, const SamplingSummary& sampling)
-{
-  return tellGuesses(findGrounds(evolution), sampling, {"smoothed_guesses", {}});
 }
 
 std::optional<Message>

@@ -47,10 +47,9 @@ findGrounds(const pcl::PointCloud<PointIso>& isopoints,
             const std::vector<std::uint8_t>& is_on_cap,
             const PeriodicBox& box);
 
-/** \brief What those rest on that a linear extraction looked at, see "examined" among
- * its counts. */
+/** \brief What those rest on that were examined. */
 PCL_UVOL_EXPORTS SurfaceGrounds
-findGrounds(const Report& linear_extraction);
+findGrounds(const SurfaceTally& tally);
 
 /** \brief What the isopoints of all processes rest on. By all of them. */
 SurfaceGrounds
@@ -58,17 +57,14 @@ addTogether(const SurfaceGrounds& own, Communicator& communicator);
 
 /** \brief A message where most isopoints do not rest on samples around them; else none.
  * \param sampling where samples lie all around, rims are the border of these
- * \param guess the message where the surface is a guess, all but its "percent" */
+ * \param guess the message where the surface is a guess, all but its "percent"
+ * \param have_border false of samples in a box that repeats along all axes: their rims
+ * are gaps */
 PCL_UVOL_EXPORTS std::optional<Message>
 tellGuesses(const SurfaceGrounds& grounds,
             const std::optional<SamplingSummary>& sampling,
-            Message guess);
-
-/** \brief The same of the surface that a level set smooths.
- * \param evolution the report of one that was examined, see
- * LevelSetEvolution::setExamined */
-PCL_UVOL_EXPORTS std::optional<Message>
-tellSmoothedGuesses(const Report& evolution, const SamplingSummary& sampling);
+            Message guess,
+            bool have_border = true);
 
 /** \brief The same of the border of a cluster, which lies somewhere between its samples
  * and the others. */

@@ -17,14 +17,39 @@ namespace {
  * is 3 %. */
 constexpr double told_spikes = 0.001;
 
-/** Samples next to the surface whose values stand alone, as IsosurfaceExtraction and
- * SurfaceMesh count them. */
-void
-warnOfSpikes(const IsosurfacePipelineParameters& parameters, Report& report)
+/** What a surface has lost, on all processes together. */
+struct SurfaceLosses {
+  SurfaceTally tally;
+  DroppedIsopoints dropped;
+  std::uint64_t isopoints; ///< that are left
+};
+
+SurfaceLosses
+addTogether(const SurfaceLosses& own, Communicator& communicator)
 {
-  const auto spikes = static_cast<double>(report.getCount("spikes")),
-             crossing = static_cast<double>(report.getCount("crossing_samples"));
-  if (!parameters.smooth && spikes > told_spikes * crossing)
+  std::vector<std::uint64_t> counts{own.tally.crossing,
+                                    own.tally.spikes,
+                                    own.tally.contradicted,
+                                    own.dropped.by_error,
+                                    own.dropped.by_support,
+                                    own.isopoints};
+  communicator.allReduce(counts);
+  SurfaceLosses all{};
+  all.tally.crossing = counts[0];
+  all.tally.spikes = counts[1];
+  all.tally.contradicted = counts[2];
+  all.dropped = {counts[3], counts[4]};
+  all.isopoints = counts[5];
+  return all;
+}
+
+/** Samples next to the surface whose values stand alone. */
+void
+warnOfSpikes(const SurfaceTally& tally, Report& report)
+{
+  const auto spikes = static_cast<double>(tally.spikes),
+             crossing = static_cast<double>(tally.crossing);
+  if (spikes > told_spikes * crossing)
     report.warn("spikes", {{"percent", 100.0 * spikes / crossing}});
 }
 
@@ -32,14 +57,13 @@ warnOfSpikes(const IsosurfacePipelineParameters& parameters, Report& report)
  * places on a surface, so that no more than these need no warning. */
 constexpr double by_chance = 2.0 / 256.0;
 
-/** Isopoints that the extraction removed, see OneSidedTest.
- * \param isopoints that are left */
+/** Isopoints that the extraction removed, see OneSidedTest. */
 void
-warnOfContradicted(std::uint64_t isopoints, Report& report)
+warnOfContradicted(const SurfaceLosses& losses, Report& report)
 {
-  const std::uint64_t removed = report.getCount("contradicted");
-  const std::uint64_t all = isopoints + removed + report.getCount("removed_by_error") +
-                            report.getCount("removed_bridged");
+  const std::uint64_t removed = losses.tally.contradicted;
+  const std::uint64_t all =
+      losses.isopoints + removed + losses.dropped.by_error + losses.dropped.by_support;
   if (static_cast<double>(removed) > by_chance * static_cast<double>(all))
     report.warn("contradicted_isopoints", {{"removed", removed}, {"isopoints", all}});
 }
@@ -49,23 +73,22 @@ constexpr double little = 0.1;
 
 /** All isopoints that there were, or nearly all. */
 void
-warnOfLittleLeft(std::uint64_t isopoints, Report& report)
+warnOfLittleLeft(const SurfaceLosses& losses, Report& report)
 {
-  const std::uint64_t by_error = report.getCount("removed_by_error"),
-                      bridged = report.getCount("removed_bridged");
-  const std::uint64_t removed = by_error + bridged;
-  if (removed > 0 && static_cast<double>(isopoints) <
-                         little * static_cast<double>(isopoints + removed))
-    report.warn(isopoints > 0 ? "few_isopoints_left" : "no_isopoints_left",
-                {{"isopoints", isopoints + removed},
-                 {"left", isopoints},
+  const auto [by_error, by_support] = losses.dropped;
+  const std::uint64_t left = losses.isopoints, removed = by_error + by_support;
+  if (removed > 0 &&
+      static_cast<double>(left) < little * static_cast<double>(left + removed))
+    report.warn(left > 0 ? "few_isopoints_left" : "no_isopoints_left",
+                {{"isopoints", left + removed},
+                 {"left", left},
                  {"by_error", by_error > 0},
-                 {"by_support", bridged > 0}});
+                 {"by_support", by_support > 0}});
 }
 
 } // namespace
 
-void
+DroppedIsopoints
 dropIsopoints(pcl::PointCloud<PointIso>& isopoints,
               IsoEdges& edges,
               IsopointChoice& choice,
@@ -77,26 +100,37 @@ dropIsopoints(pcl::PointCloud<PointIso>& isopoints,
     choice.filter(isopoints, keep);
     return filterIsopoints(isopoints, edges, keep);
   };
-  const auto drop = [&](const char* name, const auto& keep) {
-    report.count(name, filter(keep));
+  DroppedIsopoints dropped;
+  const auto drop = [&](const auto& keep, std::uint64_t& count, const char* name) {
+    const std::uint64_t some = filter(keep);
+    count += some;
+    report.count(name, some);
   };
   const PeriodicBox box{{}, sidesOf(parameters)};
   if (isPeriodic(box.sides) && !parameters.mesh)
     filter([&](const PointIso& point) { return box.holds(point.data); });
   if (parameters.max_error)
-    drop("removed_by_error",
-         [&](const PointIso& point) { return point.error <= *parameters.max_error; });
+    drop([&](const PointIso& point) { return point.error <= *parameters.max_error; },
+         dropped.by_error,
+         "removed_by_error");
   if (parameters.automatic_max_error) {
     const PointIso* const first = isopoints.data();
     const std::vector<std::uint8_t> is_known = known.find(isopoints, edges);
-    drop("removed_by_error", [&](const PointIso& point) {
-      return is_known[static_cast<std::size_t>(&point - first)] != 0;
-    });
+    drop(
+        [&](const PointIso& point) {
+          return is_known[static_cast<std::size_t>(&point - first)] != 0;
+        },
+        dropped.by_error,
+        "removed_by_error");
   }
   if (parameters.drop_bridged)
-    drop("removed_bridged", [](const PointIso& point) {
-      return point.support != static_cast<std::uint8_t>(IsoSupport::Bridged);
-    });
+    drop(
+        [](const PointIso& point) {
+          return point.support != static_cast<std::uint8_t>(IsoSupport::Bridged);
+        },
+        dropped.by_support,
+        "removed_bridged");
+  return dropped;
 }
 
 void
@@ -108,9 +142,13 @@ warnOfGuesses(const SurfaceGrounds& grounds,
 {
   Message guess("guessed_isopoints", listRemedies(parameters));
   guess.values.emplace_back("validate", parameters.validation.folds == 0);
+  guess.values.emplace_back("bridged", !parameters.drop_bridged && !parameters.mesh);
   if (const auto told = role == SurfaceRole::ClusterBorder
                             ? tellGuessedBorder(grounds)
-                            : tellGuesses(grounds, sampling, std::move(guess)))
+                            : tellGuesses(grounds,
+                                          sampling,
+                                          std::move(guess),
+                                          !(parameters.periodic > 0.0).all()))
     report.warnings.push_back(*told);
   if (4 * grounds.thin > grounds.known)
     report.warn("thin_parts", {{"percent", 100 * grounds.thin / grounds.known}});
@@ -118,12 +156,17 @@ warnOfGuesses(const SurfaceGrounds& grounds,
 
 void
 warnOfLosses(const IsosurfacePipelineParameters& parameters,
+             const SurfaceTally& tally,
+             const DroppedIsopoints& dropped,
              std::uint64_t isopoints,
+             Communicator& communicator,
              Report& report)
 {
-  warnOfSpikes(parameters, report);
-  warnOfContradicted(isopoints, report);
-  warnOfLittleLeft(isopoints, report);
+  const SurfaceLosses all = addTogether({tally, dropped, isopoints}, communicator);
+  if (!parameters.smooth)
+    warnOfSpikes(all.tally, report);
+  warnOfContradicted(all, report);
+  warnOfLittleLeft(all, report);
 }
 
 } // namespace pcl_uvol

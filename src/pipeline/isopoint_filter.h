@@ -7,14 +7,21 @@
 #include "pipeline/known_isopoints.h"
 #include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>
 
+#include <cstdint>
 #include <optional>
 
 namespace pcl_uvol {
 
+/** \brief Isopoints that were dropped. */
+struct DroppedIsopoints {
+  std::uint64_t by_error = 0;   ///< by max_error
+  std::uint64_t by_support = 0; ///< by drop_bridged
+};
+
 /** \brief Leave out what belongs to images, and what max_error and drop_bridged do not
  * want: counted as "removed_by_error" and "removed_bridged".
  * \param known what an automatic bound of the error keeps */
-void
+DroppedIsopoints
 dropIsopoints(pcl::PointCloud<PointIso>& isopoints,
               IsoEdges& edges,
               IsopointChoice& choice,
@@ -30,13 +37,15 @@ warnOfGuesses(const SurfaceGrounds& grounds,
               const std::optional<SamplingSummary>& sampling,
               Report& report);
 
-/** \brief Warn of samples next to the surface whose values stand alone, and where
- * max_error and drop_bridged left few isopoints or none, as the counts of a whole run
- * tell.
- * \param isopoints that are left */
+/** \brief Warn of samples next to the surface whose values stand alone, and where few
+ * isopoints are left or none, of all processes together. By all of them.
+ * \param tally, dropped, isopoints of this process: isopoints that are left */
 void
 warnOfLosses(const IsosurfacePipelineParameters& parameters,
+             const SurfaceTally& tally,
+             const DroppedIsopoints& dropped,
              std::uint64_t isopoints,
+             Communicator& communicator,
              Report& report);
 
 } // namespace pcl_uvol

@@ -49,6 +49,14 @@ takeInput(const std::shared_ptr<const Dataset>& samples,
   return {samples, use, parameters};
 }
 
+double
+estimateBytes(const PipelineInput& input)
+{
+  return pipelineBytes(static_cast<double>(countPoints(input)),
+                       static_cast<double>(input.samples->cloud.point_step),
+                       input.parameters);
+}
+
 /** Runs the pipeline on parts of its samples: for a hold-out test. */
 ExtractPart
 extractParts(const PipelineInput& input, unsigned threads)
@@ -84,6 +92,7 @@ public:
   void
   enter(IsosurfacePipelineParameters& parameters, Report& report) override
   {
+    checkMemoryOf("An isosurface", countPoints(input_), estimateBytes(input_));
     axes_.emplace(input_);
     input_.parameters.isosurface = resolve(input_, threads_, scale_choice_);
     const ValidationParameters& validation = input_.parameters.validation;
@@ -185,20 +194,15 @@ IsosurfacePipeline::resolveParameters(std::optional<ScaleChoice>* choice) const
 double
 IsosurfacePipeline::estimateMemory() const
 {
-  const PipelineInput input = takeInput(samples_, indices_, parameters_);
-  return pipelineBytes(static_cast<double>(countPoints(input)),
-                       static_cast<double>(input.samples->cloud.point_step),
-                       parameters_);
+  return estimateBytes(takeInput(samples_, indices_, parameters_));
 }
 
 IsosurfaceResult
 IsosurfacePipeline::run()
 {
-  PipelineInput input = takeInput(samples_, indices_, parameters_);
-  checkParameters(parameters_);
-  checkMemoryOf("An isosurface", countPoints(input), estimateMemory());
+  SamplesInMemory samples(
+      takeInput(samples_, indices_, parameters_), extraction_, threads_);
   startReport();
-  SamplesInMemory samples(std::move(input), extraction_, threads_);
   IsosurfaceResult result =
       runIsosurface(samples, parameters_, threads_, std::move(report_));
   report_ = result.report;

@@ -3,6 +3,7 @@
 // many processes.
 #pragma once
 
+#include "distributed/run_stage.h"
 #include "pipeline/extract_surface.h"
 #include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/distributed/communicator.h>
@@ -68,9 +69,9 @@ runIsosurface(SampleStore& store,
 void
 findField(const Dataset& samples, IsosurfacePipelineParameters& parameters);
 
-/** \brief Warn of samples at one place whose values differ, as the counts of all
- * processes tell. By all of them. */
+/** \brief Warn of samples at one place whose values differ, of all processes together.
+ * By all of them. */
 void
-warnOfConflicts(Communicator& communicator, Report& report);
+warnOfConflicts(const StageSamples& own, Communicator& communicator, Report& report);
 
 } // namespace pcl_uvol

@@ -98,7 +98,9 @@ runLevelSet(const std::shared_ptr<const Dataset>& samples,
   result.summary = evolution.getSummary();
   result.sampling = *evolution.getSampling();
   if (!boxed) // most of what is examined there may be images
-    if (const auto guesses = tellSmoothedGuesses(result.report, result.sampling))
+    if (const auto guesses = tellGuesses(findGrounds(evolution.getTally()),
+                                         result.sampling,
+                                         {"smoothed_guesses", {}}))
       result.report.warnings.push_back(*guesses);
   result.report.progress = nullptr; // which is the caller's
   return result;

@@ -24,6 +24,17 @@ struct LevelSetRequest {
   std::array<double, 3> periodic{}; ///< sides of the box that repeats; 0: it does not
   bool automatic_scale = false;     ///< by how fast the field changes, see chooseScale
   std::size_t snapshots = 0;        ///< steps from one to the next; 0: there are none
+
+  /** \return What is the job's and not the level set's, for options. */
+  static auto
+  listMembers()
+  {
+    using Own = LevelSetRequest;
+    return std::make_tuple(
+        Member{"snapshots",
+               &Own::snapshots,
+               {"write the zero level every so many steps, as out_00010.ply", 1, 1e6}});
+  }
 };
 
 /** \brief What comes of it. */

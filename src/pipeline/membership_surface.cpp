@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/membership_surface.h"
 
+#include "pipeline/extract_points.h"
 #include "pipeline/finish_isosurface.h"
 #include <pcl_uvol/common/map_projection.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>
@@ -32,13 +33,8 @@ extractMembershipSurface(const Dataset& samples,
   IsosurfaceExtraction<pcl::PCLPointCloud2> extraction;
   extraction.setInputCloud(
       pcl::PCLPointCloud2::ConstPtr(&with_field.cloud, [](const void*) {}));
-  extraction.setParameters(parameters.isosurface);
-  extraction.setNumberOfThreads(threads);
-  extraction.setProgressCallback(report.progress);
-  SurfaceTriangles found;
-  extraction.extract(found.vertices);
-  found.edges = extraction.getEdges();
-  report.merge(extraction.getReport());
+  SurfaceTriangles found =
+      extractPoints(extraction, parameters.isosurface, threads, report);
   SelfCommunicator alone;
   // Without the field, whose value is the same everywhere.
   auto result = finishIsosurface(turned,

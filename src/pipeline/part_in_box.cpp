@@ -107,23 +107,21 @@ PartInBox::countAllPlaces(Communicator& communicator) const
 }
 
 void
-PartInBox::finish(Communicator& communicator, IsosurfaceResult& result) const
+PartInBox::finish(const StageSamples& read,
+                  Communicator& communicator,
+                  IsosurfaceResult& result) const
 {
   if (!isPeriodic(box_.sides))
     return;
   returnPoints(cut_, box_, part_->origin, result);
   // Images lie in the pieces of others as well: the first process tells of all samples.
-  std::vector<std::uint64_t> counts{result.report.getCount("samples"),
-                                    result.report.getCount("duplicates")};
+  std::vector<std::uint64_t> counts{read.samples, read.duplicates};
   communicator.allReduce(counts);
-  Report all;
-  all.setCount("samples", counts[0]);
-  all.setCount("duplicates", counts[1]);
-  all.setCount("images", image_firsts_.back());
-  leaveOutImages(counts[1] == 0 ? image_firsts_.back() : countAllPlaces(communicator),
-                 all);
-  for (const char* const name : {"samples", "duplicates"})
-    result.report.setCount(name, rank_ == 0 ? all.getCount(name) : 0);
+  const std::uint64_t images = image_firsts_.back(),
+                      places = counts[1] == 0 ? images : countAllPlaces(communicator);
+  const bool tells = rank_ == 0;
+  result.report.setCount("samples", tells ? counts[0] - places : 0);
+  result.report.setCount("duplicates", tells ? counts[1] - (images - places) : 0);
 }
 
 } // namespace pcl_uvol

@@ -2,7 +2,7 @@
 // The samples of one of several processes, with images of them where their box repeats.
 #pragma once
 
-#include "distributed/samples.h"
+#include "distributed/run_stage.h"
 #include "isosurface/piece_isopoints.h"
 #include "neighbors/periodic_box.h"
 #include <pcl_uvol/common/dataset.h>
@@ -62,9 +62,12 @@ public:
               Report& report) const;
 
   /** \brief Bring a surface of these points back to the box of the samples, and leave
-   * images out of the counts. All processes call it together. */
+   * images out of the counts. All processes call it together.
+   * \param read samples and images of this process */
   void
-  finish(Communicator& communicator, IsosurfaceResult& result) const;
+  finish(const StageSamples& read,
+         Communicator& communicator,
+         IsosurfaceResult& result) const;
 
 private:
   /** How many places the images of all processes lie in. */

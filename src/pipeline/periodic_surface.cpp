@@ -46,8 +46,16 @@ countSupport(IsosurfaceResult& result)
         static_cast<std::size_t>(field.read(&cloud.data[i * cloud.point_step])));
   for (const auto& [name, support] :
        {std::pair("bridged", IsoSupport::Bridged), std::pair("rim", IsoSupport::Rim)})
-    if (result.report.getCount(name) > 0)
-      result.report.setCount(name, counts.at(static_cast<std::size_t>(support)));
+    if (const std::uint64_t count = counts.at(static_cast<std::size_t>(support));
+        count > 0 || !result.triangles.empty())
+      result.report.setCount(name, count);
+}
+
+/** Leave some out of a count: unsigned sums wrap around. */
+void
+takeOff(const char* count, std::uint64_t some, Report& report)
+{
+  report.count(count, std::uint64_t(0) - some);
 }
 
 /** Samples with the images that the stages need.
@@ -126,14 +134,6 @@ countPlaces(std::vector<ImagePlace> places)
                                     places.begin());
 }
 
-void
-leaveOutImages(std::uint64_t places, Report& report)
-{
-  const std::uint64_t images = report.getCount("images");
-  report.setCount("samples", report.getCount("samples") - places);
-  report.setCount("duplicates", report.getCount("duplicates") - (images - places));
-}
-
 std::vector<std::uint32_t>
 listWithValue(const Dataset& samples,
               const pcl::IndicesPtr& use,
@@ -195,12 +195,12 @@ RepeatedBox::leave(const IsosurfacePipelineParameters& parameters,
 {
   if (!images_)
     return;
-  result.report.setCount("images", images_->image_of.size());
-  if (result.report.getCount("duplicates") == 0)
-    leaveOutImages(images_->image_of.size(), result.report);
-  else
-    leaveOutImages(countPlaces(listPlaces(images_->samples, images_->countOwn())),
-                   result.report);
+  const std::uint64_t images = images_->image_of.size(),
+                      places = countPlaces(
+                          listPlaces(images_->samples, images_->countOwn()));
+  result.report.setCount("images", images);
+  takeOff("samples", places, result.report);
+  takeOff("duplicates", images - places, result.report);
   returnToBox(*samples_, *images_, box_, parameters.periodic_mesh, result);
   for (std::size_t i = 0; parameters.mesh && i < result.isopoints.size(); ++i) {
     result.isopoints[i] = 0;

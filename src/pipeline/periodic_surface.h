@@ -59,12 +59,6 @@ listPlaces(const Dataset& points, std::size_t first);
 std::uint64_t
 countPlaces(std::vector<ImagePlace> places);
 
-/** \brief Make counts of samples those of the samples that came in.
- *
- * \param places that differ, of as many images as the report has */
-void
-leaveOutImages(std::uint64_t places, Report& report);
-
 /** \brief Adds images of samples to a pipeline whose box repeats, and brings its
  * surface back into the box. */
 class RepeatedBox {

@@ -2,6 +2,7 @@
 #include "pipeline/zero_level.h"
 
 #include "levelset/phi_cloud.h"
+#include "pipeline/extract_points.h"
 #include "pipeline/finish_isosurface.h"
 #include <pcl_uvol/common/map_projection.h>
 #include <pcl_uvol/levelset/level_set_evolution.h>
@@ -91,12 +92,7 @@ extractZeroLevel(const CloudView& samples,
   else {
     IsosurfaceExtraction<pcl::PCLPointCloud2> extraction;
     extraction.setInputCloud(pcl::PCLPointCloud2::ConstPtr(&cloud, [](const void*) {}));
-    extraction.setParameters(of_phi);
-    extraction.setNumberOfThreads(threads);
-    extraction.setProgressCallback(report.progress);
-    extraction.extract(found.vertices);
-    report.merge(extraction.getReport());
-    found.edges = extraction.getEdges();
+    found = extractPoints(extraction, of_phi, threads, report);
     for (PointIso& point : found.vertices)
       point.isovalue = static_cast<float>(parameters.isovalues.front());
   }

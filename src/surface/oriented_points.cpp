@@ -2,6 +2,7 @@
 #include "surface/oriented_points.h"
 
 #include "common/parallel.h"
+#include "common/report_parts.h"
 #include "common/scalar_field.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/point_types.h>
@@ -83,8 +84,7 @@ estimateNormals(const CloudView& cloud,
   estimation.progress = report.progress;
   const auto estimated =
       detail::estimateSurfaceNormals(cloud, use, {}, nullptr, threads, estimation);
-  if (const std::uint64_t strays = estimation.getCount("strays"); strays > 0)
-    report.count("strays", strays);
+  addCounts(estimation, {"strays"}, report);
   report.warnings.insert(
       report.warnings.end(), estimation.warnings.begin(), estimation.warnings.end());
   Normals normals;

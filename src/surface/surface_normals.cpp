@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/memory.h"
 #include "common/parallel.h"
+#include "common/report_parts.h"
 #include "common/scalar_field.h"
 #include "common/stretch_axes.h"
 #include "neighbors/nearest_neighbors.h"
@@ -318,7 +319,7 @@ replaceNormals(pcl::PointCloud<PointIso>& isopoints,
         estimateSurfaceNormals(cloud, surface, parameters, nullptr, threads, own);
     for (std::size_t i = 0; i < normals.size(); ++i)
       isopoints[begin + i].getNormalVector3fMap() = Eigen::Vector3f(normals[i].normal);
-    report.count("degenerate_normals", own.getCount("degenerate_normals"));
+    addCounts(own, {"degenerate_normals"}, report);
     begin = end;
   }
 }

@@ -128,7 +128,7 @@ TEST_F(PictureFiles, OtherEndingsAndFoldersAreRefused)
   checkPicturePath(folder_ / "a.PNG");
   for (const bool or_page : {false, true})
     try {
-      checkPicturePath(folder_ / "a.gif", or_page);
+      (or_page ? checkDrawingPath : checkPicturePath)(folder_ / "a.gif");
       ADD_FAILURE();
     }
     catch (const pcl_uvol::IOError& error) {

@@ -138,10 +138,12 @@ TEST(Message, ChoicesHoldChoices)
                               {{"percent", 40},
                                {"validate", validate},
                                {"scale", scale},
-                               {"gaps", gaps}});
+                               {"gaps", gaps},
+                               {"bridged", !gaps}});
         const auto expected = [&](const std::string& test,
                                   const std::string& factors,
-                                  const std::string& filling) {
+                                  const std::string& filling,
+                                  const std::string& dropping) {
           std::string text = guess;
           if (validate)
             text += " A hold-out test tells how good it is (" + test + ").";
@@ -149,12 +151,15 @@ TEST(Message, ChoicesHoldChoices)
             text += " " + factors + " or " + filling + " may help.";
           else if (scale || gaps)
             text += " " + (scale ? factors : filling) + " may help.";
+          if (!gaps)
+            text += " " + dropping + " leaves out the isopoints in gaps.";
           return text;
         };
-        EXPECT_EQ(expected("validate", "scale", "fill_gaps"), message.text());
-        EXPECT_EQ(expected("-validate", "-scale", "-fill-gaps"),
+        EXPECT_EQ(expected("validate", "scale", "fill_gaps", "drop_bridged"),
+                  message.text());
+        EXPECT_EQ(expected("-validate", "-scale", "-fill-gaps", "-drop-bridged"),
                   message.text(ParameterNames::Options));
-        EXPECT_EQ(expected("Validate", "Scale", "FillGaps"),
+        EXPECT_EQ(expected("Validate", "Scale", "FillGaps", "DropBridged"),
                   message.text(ParameterNames::Properties));
       }
 }

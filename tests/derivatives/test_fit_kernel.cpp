@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Fits of cubics and quadratics against their closed forms in long double.
+#include "derivatives/equations.h"
 #include "src/derivatives/fit_kernel.h"
 #include "support/simd_levels.h"
 
 #include <Eigen/Core>
-#include <Eigen/QR>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -17,8 +17,8 @@ namespace test_fit_kernel {
 using namespace pcl_uvol;
 using Real = long double;
 using Vector3 = Eigen::Matrix<Real, 3, 1>;
-using VectorX = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
-using MatrixX = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
+using VectorX = uvol_test::LongVector;
+using MatrixX = uvol_test::LongMatrix;
 
 const KernelTable<FitKernel> kernels{
     baseline::fitZeroLevel, avx2::fitZeroLevel, avx512::fitZeroLevel};
@@ -188,17 +188,17 @@ struct Fit {
       values[i] = rest * s.samples[static_cast<std::size_t>(i)].value[lane];
       weights += rest * rest;
     }
-    const VectorX solution = rows.colPivHouseholderQr().solve(values);
+    const VectorX solution = uvol_test::solve(rows, values);
     polynomial.coefficient.head(terms) = solution;
     sq_residuals = (values - rows * solution).squaredNorm();
     variance = sq_residuals / (n - terms);
-    inverse = (rows.transpose() * rows).fullPivHouseholderQr().inverse();
+    inverse = uvol_test::invert(MatrixX(rows.transpose() * rows));
     rows.conservativeResize(n, terms + 1);
     for (int i = 0; i < n; ++i) {
       const Vector3 x = s.position(lane, i);
       rows(i, terms) = (1.0L - x.squaredNorm()) * fourthPower(x);
     }
-    with_fourth_power = rows.colPivHouseholderQr().solve(values);
+    with_fourth_power = uvol_test::solve(rows, values);
   }
 
   /** How far the fourth power of the distance from the centre moves a value. */

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Polynomials of several fields at once against factorisations in long double.
+#include "derivatives/equations.h"
 #include "src/derivatives/polynomial_kernel.h"
 #include "support/simd_levels.h"
 
 #include <Eigen/Core>
-#include <Eigen/QR>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,8 +15,8 @@ namespace test_polynomial_kernel {
 
 using namespace pcl_uvol;
 using Real = long double;
-using VectorX = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
-using MatrixX = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
+using VectorX = uvol_test::LongVector;
+using MatrixX = uvol_test::LongMatrix;
 
 const KernelTable<PolynomialKernel> kernels{
     baseline::fitPolynomials, avx2::fitPolynomials, avx512::fitPolynomials};
@@ -121,10 +121,9 @@ struct Fit {
       values[i] = rest * s.values[field * room + j].value[lane];
       weights += rest * rest;
     }
-    const auto factored = rows.colPivHouseholderQr();
-    coefficient = factored.solve(values);
+    coefficient = uvol_test::solve(rows, values);
     const Real squares = (values - rows * coefficient).squaredNorm();
-    const MatrixX inverse = (rows.transpose() * rows).fullPivHouseholderQr().inverse();
+    const MatrixX inverse = uvol_test::invert(MatrixX(rows.transpose() * rows));
     error = std::sqrt(inverse(0, 0) * squares / (n - terms));
     residual = std::sqrt(squares / weights);
   }

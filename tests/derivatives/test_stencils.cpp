@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Stencils on random samples: derivatives of polynomials, and the bounds that time
 // steps rest on.
+#include "derivatives/equations.h"
 #include "src/derivatives/stencils.h"
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -138,8 +138,7 @@ TEST(Stencils, DerivativesOfPlanesAreThoseOfAllNeighboursAndTheSample)
       rows.row(static_cast<Eigen::Index>(j)) << 1.0, (x - block.place(i)).transpose();
       values[static_cast<Eigen::Index>(j)] = f(x);
     }
-    const Eigen::VectorXd plane =
-        (rows.transpose() * rows).inverse() * rows.transpose() * values;
+    const Eigen::VectorXd plane = uvol_test::solve(rows, values);
     for (std::size_t row = 0; row < 3; ++row)
       EXPECT_NEAR(
           plane[static_cast<Eigen::Index>(row) + 1], block.derivative(i, row, f), 1e-3);

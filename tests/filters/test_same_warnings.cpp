@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Every front end warns of the same things on the same samples: the tool, the tool on
-// ranks, Python and the filter of VTK. The viewer runs the pipeline as the filter does.
+// ranks, Python, the filter of VTK and the viewer.
 #include "support/mpi_job.h"
+#include "support/virtual_display.h"
 #include "vtk_setup.h"
 #include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/message.h>
@@ -214,13 +215,13 @@ protected:
     return listSubjects()[GetParam()];
   }
 
-  /** What a command that prints a report tells. */
+  /** What a command that prints a report tells.
+   * \param output what it writes */
   std::vector<Message>
-  runTool(const std::string& tool) const
+  runTool(const std::string& tool, const std::string& output = "out.vtp") const
   {
-    const auto result =
-        runCommand("cd " + (folder_ / "") + " && " + tool +
-                   " in.vtp out.vtp -field f -json -iso " + isoOf(subject()));
+    const auto result = runCommand("cd " + (folder_ / "") + " && " + tool + " in.vtp " +
+                                   output + " -field f -json -iso " + isoOf(subject()));
     EXPECT_EQ(0, result.exit_code) << result.err;
     return toMessages(json::parse(result.out).at("warnings"));
   }
@@ -308,6 +309,17 @@ TEST_P(SameWarnings, ToolAndPython)
     GTEST_SKIP() << "Python's module is not built";
   EXPECT_EQ(sortedTexts(runTool("uvol_isosurface")),
             sortedTexts(runPython("isosurface")));
+}
+
+TEST_P(SameWarnings, ToolAndViewer)
+{
+  if (!VirtualDisplay::isInstalled())
+    GTEST_SKIP() << "there is no Xvfb";
+  if (std::string(subject().code) == "no_isopoints")
+    GTEST_SKIP() << "the window has a slider over the values, and refuses others";
+  static const VirtualDisplay display; // for all of them
+  EXPECT_EQ(sortedTexts(runTool("uvol_isosurface")),
+            sortedTexts(runTool("uvol_viewer", "-screenshot out.png -size 100x75")));
 }
 
 TEST_P(SameWarnings, OfLevelSets)

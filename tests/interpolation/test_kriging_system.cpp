@@ -2,11 +2,11 @@
 // The equations of kriging against the textbook's bordered matrix in long double, and
 // variograms against what they were made from.
 #include "common/random.h"
+#include "derivatives/equations.h"
 #include "src/interpolation/field_model.h"
 #include "src/interpolation/kriging_system.h"
 #include "src/interpolation/variogram.h"
 
-#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -93,7 +93,7 @@ krige(const Case& at,
     for (Eigen::Index k = 0; k < p; ++k)
       matrix(i, n + k) = matrix(n + k, i) = terms[k];
   }
-  const VectorX weights = matrix.fullPivLu().solve(right);
+  const VectorX weights = uvol_test::solve(matrix, right);
   return {weights.head(n).dot(at.values.cast<Real>()), prior - weights.dot(right)};
 }
 

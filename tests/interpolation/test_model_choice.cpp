@@ -179,11 +179,12 @@ answersOf(const std::vector<double>& values, const std::vector<double>& errors)
   return answers;
 }
 
-/** The warnings about answers to 10 queries. */
+/** The warnings about answers to 10 queries.
+ * \param kinds of support of the first ones */
 std::vector<Message>
-warningsOf(const InterpolatedFields& answers,
-           const std::vector<std::pair<std::string, std::uint64_t>>& counts)
+warningsOf(InterpolatedFields answers, const std::vector<FieldSupport>& kinds)
 {
+  std::copy(kinds.begin(), kinds.end(), answers.support.begin());
   // Values 0 and 1, spread 0.5.
   const auto cloud =
       sampleFunctions({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}},
@@ -191,8 +192,6 @@ warningsOf(const InterpolatedFields& answers,
   detail::AnswerSummary summary(viewOf(cloud), {0, 1, 2, 3}, {"f0"});
   summary.add(answers);
   Report report;
-  report.counts = counts;
-  report.count("queries", 10);
   summary.warn(report);
   return report.warnings;
 }
@@ -200,23 +199,33 @@ warningsOf(const InterpolatedFields& answers,
 TEST(AnswerSummary, WarnsOnceWhereMostIsUncertain)
 {
   const std::vector<double> fine(10, 0.5), small(10, 0.1), none(10, nan);
-  EXPECT_TRUE(warningsOf(answersOf(fine, small), {{"measured", 10}}).empty());
-  EXPECT_TRUE(warningsOf(answersOf(fine, small), {{"rim", 5}}).empty());
-  EXPECT_TRUE(warningsOf(answersOf(fine, none), {{"measured", 10}}).empty());
+  EXPECT_TRUE(warningsOf(answersOf(fine, small), {}).empty());
+  EXPECT_TRUE(warningsOf(answersOf(fine, small),
+                         std::vector<FieldSupport>(5, FieldSupport::Rim))
+                  .empty());
+  EXPECT_TRUE(warningsOf(answersOf(fine, none), {}).empty());
   const auto expectOne = [](const std::vector<Message>& warnings,
                             const Message& expected) {
     ASSERT_EQ(warnings.size(), 1u);
     EXPECT_EQ(warnings[0], expected);
   };
-  expectOne(warningsOf(answersOf(none, none), {{"outside", 6}}),
+  expectOne(warningsOf(answersOf(none, none),
+                       std::vector<FieldSupport>(6, FieldSupport::Outside)),
             {"queries_outside", {{"outside", 6}, {"queries", 10}, {"has_values", 0}}});
-  expectOne(warningsOf(answersOf(fine, small), {{"outside", 6}}),
+  expectOne(warningsOf(answersOf(fine, small),
+                       std::vector<FieldSupport>(6, FieldSupport::Outside)),
             {"queries_outside", {{"outside", 6}, {"queries", 10}, {"has_values", 1}}});
-  expectOne(warningsOf(answersOf(none, none), {{"invalid", 6}}),
+  expectOne(warningsOf(answersOf(none, none),
+                       std::vector<FieldSupport>(6, FieldSupport::Invalid)),
             {"invalid_queries", {{"invalid", 6}, {"queries", 10}}});
-  expectOne(
-      warningsOf(answersOf(fine, small), {{"rim", 2}, {"bridged", 2}, {"reduced", 2}}),
-      {"weak_support", {{"weak", 6}, {"queries", 10}}});
+  expectOne(warningsOf(answersOf(fine, small),
+                       {FieldSupport::Rim,
+                        FieldSupport::Rim,
+                        FieldSupport::Bridged,
+                        FieldSupport::Bridged,
+                        FieldSupport::Reduced,
+                        FieldSupport::Reduced}),
+            {"weak_support", {{"weak", 6}, {"queries", 10}}});
   expectOne(warningsOf(answersOf(fine, std::vector<double>(10, 0.51)), {}),
             {"unsure_values", {{"unsure", 10}, {"values", 10}, {"field", "f0"}}});
   std::vector<double> wild = fine;

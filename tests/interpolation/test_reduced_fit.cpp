@@ -2,9 +2,9 @@
 // Polynomials where samples do not determine all terms, against cubics that are known
 // and normal equations.
 #include "common/random.h"
+#include "derivatives/equations.h"
 #include "src/interpolation/reduced_fit.h"
 
-#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -83,8 +83,8 @@ TEST(ReducedFit, ErrorsAndCoefficientsAreThoseOfWeightedLeastSquares)
       matrix.row(i) = termsAt(offsets.row(i)).head(terms);
       weights[i] = std::pow(1.0 - offsets.row(i).squaredNorm(), 2.0);
     }
-    const Eigen::MatrixXd inverse =
-        (matrix.transpose() * weights.asDiagonal() * matrix).inverse();
+    const Eigen::MatrixXd inverse = uvol_test::invert(
+        Eigen::MatrixXd(matrix.transpose() * weights.asDiagonal() * matrix));
     const Eigen::VectorXd solution =
         inverse * (matrix.transpose() * weights.asDiagonal() * values);
     const Eigen::VectorXd residuals = matrix * solution - values;

@@ -22,8 +22,10 @@ struct Roots {
     const pcl_uvol::IsopointInput input =
         field.input(outside, pcl_uvol::Interpolation::Fit);
     pcl_uvol::Report report;
+    pcl_uvol::SurfaceTally tally;
     const auto crossing = input.candidates.findCrossing(input.ranges, isovalue, 1);
-    for (const pcl_uvol::EdgeKey key : findEdges(input, crossing, isovalue, report)) {
+    for (const pcl_uvol::EdgeKey key :
+         findEdges(input, crossing, isovalue, tally, report)) {
       linear.emplace_back();
       edges.emplace_back();
       placeIsopoint(input, key, isovalue, linear.back(), edges.back());

@@ -103,10 +103,11 @@ TEST(AppendIsopoints, AverageTheOutsideVectorsOfAllEdgesThatMeet)
   });
   const IsopointInput input = field.input(Outside::Lower, Interpolation::Linear);
   Report report;
+  SurfaceTally tally;
   const auto crossing = input.candidates.findCrossing(input.ranges, 0.0f, 1);
   std::map<std::array<float, 3>, Vector3d> sums;
   std::size_t edge_count = 0;
-  for (const EdgeKey key : findEdges(input, crossing, 0.0f, report)) {
+  for (const EdgeKey key : findEdges(input, crossing, 0.0f, tally, report)) {
     PointIso point;
     IsoEdge edge{};
     placeIsopoint(input, key, 0.0f, point, edge);
@@ -118,7 +119,7 @@ TEST(AppendIsopoints, AverageTheOutsideVectorsOfAllEdgesThatMeet)
   ASSERT_GT(edge_count, sums.size());
   pcl::PointCloud<PointIso> isopoints;
   IsoEdges edges;
-  appendIsopoints(input, field.sources(), 0.0f, isopoints, edges, report);
+  appendIsopoints(input, field.sources(), 0.0f, isopoints, edges, tally, report);
   EXPECT_EQ(edge_count - sums.size(), report.getCount("coincident"));
   ASSERT_EQ(sums.size(), isopoints.size());
   for (const PointIso& point : isopoints) {

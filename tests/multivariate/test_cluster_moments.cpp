@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Moments of clusters, and Fisher ratios in subspaces, against sums in long double.
+#include "derivatives/equations.h"
 #include "src/multivariate/cluster_moments.h"
 #include "src/multivariate/cluster_separation.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <gtest/gtest.h>
 
@@ -132,7 +132,7 @@ struct Separated {
         const VectorXd offset =
             functionals.transpose() * (clusters[a].mean - clusters[b].mean);
         const MatrixXd inside = functionals.transpose() * both * functionals;
-        smallest = std::min(smallest, offset.dot(inside.ldlt().solve(offset)));
+        smallest = std::min(smallest, offset.dot(uvol_test::solve(inside, offset)));
       }
     return smallest;
   }
@@ -168,7 +168,7 @@ TEST(ClusterSeparation, AscentEndsAtTheBestSubspace)
   MatrixXd both = two[0].covariance() + two[1].covariance();
   both.diagonal() += 2.0 * three.regularization * total.covariance().diagonal();
   const VectorXd offset = two[0].mean - two[1].mean;
-  const double best = offset.dot(both.ldlt().solve(offset));
+  const double best = offset.dot(uvol_test::solve(both, offset));
   MatrixXd start(Index(columns), 3);
   std::mt19937_64 engine(5);
   std::normal_distribution<double> normal;

@@ -71,13 +71,14 @@ struct Together {
       for (std::size_t i = 0; i < all.size(); ++i)
         if (owner(all.sources[i]) == communicator.rank())
           samples.append(all.span(i, 1));
-      const auto [found, looks] =
+      const auto found =
           extractFromRanks(std::move(samples), settings, {}, communicator, 1, own);
       const std::lock_guard lock(mutex);
-      sampling = looks;
+      sampling = found.samples.sampling;
       report.merge(own);
-      for (std::size_t i = 0; i < found.size(); ++i)
-        isopoints[i].insert(isopoints[i].end(), found[i].begin(), found[i].end());
+      for (std::size_t i = 0; i < found.isopoints.size(); ++i)
+        isopoints[i].insert(
+            isopoints[i].end(), found.isopoints[i].begin(), found.isopoints[i].end());
     });
     for (auto& part : isopoints)
       std::sort(part.begin(), part.end(), [](const auto& a, const auto& b) {

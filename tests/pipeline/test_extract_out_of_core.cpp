@@ -191,7 +191,7 @@ TEST_F(OutOfCore, TellsWhatTheSamplesAreLike)
   settings.field = "intensity";
   settings.isovalues = {7.0}; // none is found
   settings.scale = {1e9f, 1e9f, 1e9f};
-  const auto found = extract(settings).sampling;
+  const auto found = extract(settings).read.sampling;
   EXPECT_LT(1u, report_.getCount("pieces"));
   EXPECT_EQ(pcl_uvol::LocalDimension::Volume,
             uvol_test::expectSamplingOf(*cloud, settings, found));

@@ -145,6 +145,17 @@ TEST_F(Maps, WarnsOfFilesInDifferentSystems)
   EXPECT_NE(std::string::npos, output.find("has no columns or fields of longitude"));
 }
 
+/** A user's names of columns need not be those that are recognised. */
+TEST_F(Maps, WarnsOfQueriesThatMayBeDegrees)
+{
+  write("a.csv", makeTable(8.0, -43.0, 900));
+  const std::string query = "\n8.1,-42.9,-40\n";
+  write("b.csv", "x,y,z" + query);
+  const std::string heard =
+      runWell("probe a.csv out.csv -map auto -scale auto -field T -points b.csv -json");
+  EXPECT_NE(std::string::npos, heard.find("\"not_on_map\"")) << heard;
+}
+
 TEST_F(Maps, RefusesMapsThatAreNone)
 {
   write("a.csv", makeTable(8.0, -43.0, 20));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "charts/paper.h"
+#include <pcl_uvol/common/parameters.h>
 #include <pcl_uvol/render/renderer.h>
 
 #include <array>
@@ -24,6 +25,28 @@ pcl_uvol::Image
 drawLinePlot(const std::vector<PlotLine>& lines,
              const std::string& abscissa,
              const Paper& paper = {});
+
+/** \brief The same of members of structs that list them: their texts are the names.
+ * \param rows one per abscissa
+ * \param members names of up to four, which are numbers */
+template <typename Row>
+pcl_uvol::Image
+drawLinePlot(const std::vector<Row>& rows,
+             const std::vector<std::string>& members,
+             const std::string& abscissa,
+             const Paper& paper)
+{
+  std::vector<PlotLine> lines;
+  for (const std::string& name : members)
+    pcl_uvol::forEachDescribed<Row>([&](const auto& member) {
+      if (member.name != name)
+        return;
+      lines.push_back({member.text.help, {}});
+      for (const Row& row : rows)
+        lines.back().values.push_back(row.*member.pointer);
+    });
+  return drawLinePlot(lines, abscissa, paper);
+}
 
 /** \brief Single values in a plot. */
 struct PlotDots {

@@ -132,18 +132,32 @@ encodeBase64(const void* bytes, std::size_t count)
   return text;
 }
 
+namespace {
+
+/** \param endings of files that are written, for the message about others */
 void
-checkPicturePath(const std::string& path, bool or_page)
+checkPath(const std::string& path, const char* endings)
 {
   if (isSvg(path) || isPdf(path))
     pcl_uvol::io::checkWritable(path);
   else if (pcl_uvol::io::getEnding(path) == ".png")
     pcl_uvol::checkPngPath(path);
   else
-    pcl_uvol::io::throwUnwritable(
-        path,
-        or_page ? "pictures are written as .png, .svg or .pdf, web pages as .html"
-                : "pictures are written as .png, .svg or .pdf");
+    pcl_uvol::io::throwUnwritable(path, endings);
+}
+
+} // namespace
+
+void
+checkPicturePath(const std::string& path)
+{
+  checkPath(path, "pictures are written as .png, .svg or .pdf");
+}
+
+void
+checkDrawingPath(const std::string& path)
+{
+  checkPath(path, "pictures are written as .png, .svg or .pdf, web pages as .html");
 }
 
 PictureFile::PictureFile(const std::string& path, double dots_per_inch)

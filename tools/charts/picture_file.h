@@ -16,10 +16,13 @@ std::string
 encodeBase64(const void* bytes, std::size_t count);
 
 /** \brief Throw IOError unless the name ends in .png, .svg or .pdf and its folder can
- * be written to: to be called before work whose result would be lost.
- * \param or_page the caller writes .html as well, of which it takes care */
+ * be written to: to be called before work whose result would be lost. */
 void
-checkPicturePath(const std::string& path, bool or_page = false);
+checkPicturePath(const std::string& path);
+
+/** \brief The same for a caller that writes .html as well, of which it takes care. */
+void
+checkDrawingPath(const std::string& path);
 
 /** \brief A picture that is going to be written: as .png, or as .svg or .pdf, in which
  * its letters are text over its pixels, for programs that set and edit figures. */

@@ -75,6 +75,12 @@ private:
 
 using Facts = std::vector<Fact>;
 
+inline void
+append(Facts& facts, const Facts& more)
+{
+  facts.insert(facts.end(), more.begin(), more.end());
+}
+
 /** \brief All numbers of a list, as doubles. */
 template <typename T>
 Fact::Numbers

@@ -6,23 +6,13 @@
 
 namespace uvol_tools {
 
-IsosurfaceOptions::IsosurfaceOptions()
-{
-  parameters.isosurface.field.clear(); // intensity, else the only candidate
-}
-
 void
 IsosurfaceOptions::declareSamples(Options& options,
                                   bool automatic,
                                   const std::string& need)
 {
   options.group("Input");
-  options.text("field",
-               "name",
-               parameters.isosurface.field,
-               "scalar field: density, vel[1], |vel|, |vx,vy,vz|, or an expression: "
-               "log10(rho), rho*u, |grad(rho)|, Q(vel) (default: intensity, else the "
-               "only candidate)");
+  declareField(options, parameters.isosurface.field);
   scale_.declare(
       options, "distances", automatic ? AutomaticScale::Field : AutomaticScale::None);
   input_files_.declare(options);

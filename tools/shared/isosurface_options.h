@@ -18,8 +18,6 @@ namespace uvol_tools {
 struct IsosurfaceOptions {
   pcl_uvol::IsosurfacePipelineParameters parameters;
 
-  IsosurfaceOptions();
-
   /** \brief -iso, -field, -where, -scale, -rotate, -xyz, -particles, -cells,
    * -outside.
    *

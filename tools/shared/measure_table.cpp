@@ -139,7 +139,7 @@ measureSurface(const std::shared_ptr<const pcl_uvol::Dataset>& vertices,
   // The surface has told the samples' counts already.
   const pcl_uvol::Report& own = measures.getReport();
   if (parameters.find_intersections)
-    report.setCount("intersections", own.getCount("intersections"));
+    report.setCount("intersections", figures.intersections.size());
   for (const auto& [step, milliseconds] : own.milliseconds)
     report.time(step, milliseconds);
   report.warnings.insert(

@@ -323,8 +323,19 @@ Options::numbers(const std::string& name,
                  std::vector<double>& target,
                  const std::string& help)
 {
-  const auto assign = [name, count, &target](const std::string& value) {
-    target = parseNumbers(name, value, count);
+  const auto take = [&target](const std::vector<double>& read) { target = read; };
+  return numbers(name, placeholder, count, take, help);
+}
+
+Options&
+Options::numbers(const std::string& name,
+                 const std::string& placeholder,
+                 std::size_t count,
+                 const std::function<void(const std::vector<double>&)>& take,
+                 const std::string& help)
+{
+  const auto assign = [name, count, take](const std::string& value) {
+    take(parseNumbers(name, value, count));
   };
   return add({name, placeholder, help, assign});
 }
@@ -335,6 +346,23 @@ Options::given(const std::string& name) const
   return std::any_of(options_.begin(), options_.end(), [&](const Option& option) {
     return option.name == name && option.given;
   });
+}
+
+std::string
+Options::oneOf(const std::vector<std::string>& names) const
+{
+  std::string found, all;
+  bool is_one = true;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    all += (i == 0 ? "-" : i + 1 < names.size() ? ", -" : " and -") + names[i];
+    if (!given(names[i]))
+      continue;
+    is_one = found.empty();
+    found = names[i];
+  }
+  if (!is_one)
+    throw UsageError("Only one of " + all + " can be given.");
+  return found;
 }
 
 Options&
@@ -423,6 +451,9 @@ Options::parse(int argc, const char* const* argv)
     output_ = files.back();
   nameFiles();
   checkFiles(files);
+  for (const Option& option : options_)
+    if (option.given && option.check)
+      option.check(option.read ? *option.read : *option.written);
   return true;
 }
 

@@ -135,6 +135,13 @@ public:
           std::size_t count,
           std::vector<double>& target,
           const std::string& help);
+  /** \param take gets the numbers, as often as the option is given */
+  Options&
+  numbers(const std::string& name,
+          const std::string& placeholder,
+          std::size_t count,
+          const std::function<void(const std::vector<double>& numbers)>& take,
+          const std::string& help);
 
   /** \brief A number from low to high, or the word auto for none. */
   Options&
@@ -180,6 +187,16 @@ public:
     return *this;
   }
 
+  /** \brief What was declared last must be fit for what it asks for.
+   * \param check called by parse() with the value, if it was given and names a file
+   * that is read or written; throws */
+  Options&
+  check(const std::function<void(const std::string&)>& check)
+  {
+    options_.back().check = check;
+    return *this;
+  }
+
   /** \brief Parse; -h and -version print and return false (the tool then returns 0).
    * Two dashes are as good as one, and --name=value is --name value.
    * \throws UsageError, also where a file would be read and written, or written twice
@@ -190,6 +207,11 @@ public:
   /** \brief True if the option was given. */
   bool
   given(const std::string& name) const;
+
+  /** \brief The one of these options that was given; "" if none was.
+   * \throws UsageError if several were */
+  std::string
+  oneOf(const std::vector<std::string>& names) const;
 
   /** \brief Value of -threads: 0 = all cores. */
   unsigned
@@ -230,6 +252,7 @@ private:
     const std::string *read = nullptr, *written = nullptr;
     std::size_t group = 0;
     bool is_rare = false;
+    std::function<void(const std::string&)> check = nullptr; // of the file it names
   };
   struct Group {
     std::string title;

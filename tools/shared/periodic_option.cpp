@@ -21,8 +21,11 @@ PeriodicOption::declare(Options& options)
 }
 
 void
-PeriodicOption::check() const
+PeriodicOption::check(bool is_turned) const
 {
+  if (isAskedFor() && is_turned)
+    throw UsageError("-periodic goes without -rotate and a -scale of nine numbers: the "
+                     "sides of the box lie along x, y and z.");
   if (text_.empty() || text_ == "header")
     return;
   const std::vector<double> sides = parseNumbers("periodic", text_, 3);

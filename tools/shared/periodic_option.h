@@ -26,9 +26,11 @@ public:
 
   /** \brief Check the value before any file is read.
    *
+   * \param is_turned whether the tool turns the axes
+   *
    * \throws UsageError */
   void
-  check() const;
+  check(bool is_turned = false) const;
 
   /** \brief The sides of the box of a file, 0 without the option. Where a file names a
    * box and the option is not given, a warning says so.

@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
+#include <iomanip>
 #include <optional>
 #include <sstream>
 
@@ -148,10 +150,24 @@ keepMap(const std::string& path,
     report.warn("only_one_mapped", {{"path", path}, {"other", command.first}});
   if (!map && options.map && !options.map->isComplete())
     report.warn("no_longitudes", {{"path", path}});
+  else if (!map && options.map && command.map)
+    report.warn("not_on_map", {{"path", path}, {"other", command.first}});
   if (!command.map)
     command.map = map;
   if (command.first.empty())
     command.first = path;
+}
+
+void
+declareField(Options& options, std::string& field)
+{
+  field.clear();
+  options.text("field",
+               "name",
+               field,
+               "scalar field: density, vel[1], |vel|, |vx,vy,vz|, or an expression: "
+               "log10(rho), rho*u, |grad(rho)|, Q(vel) (default: intensity, else the "
+               "only candidate)");
 }
 
 pcl_uvol::Dataset
@@ -254,6 +270,16 @@ warnOfLosses(const std::string& path,
 {
   const auto losses = pcl_uvol::describeLosses(path, dataset);
   report.warnings.insert(report.warnings.end(), losses.begin(), losses.end());
+}
+
+std::string
+numberedPath(const std::string& path, std::uint64_t number, std::size_t digits)
+{
+  const std::filesystem::path whole(path);
+  std::ostringstream name;
+  name << whole.stem().string() << '_' << std::setw(static_cast<int>(digits))
+       << std::setfill('0') << number << whole.extension().string();
+  return (whole.parent_path() / name.str()).string();
 }
 
 void

@@ -42,6 +42,11 @@ private:
   bool cells_ = false;
 };
 
+/** \brief Declares -field.
+ * \param field becomes "", which stands for the only candidate */
+void
+declareField(Options& options, std::string& field);
+
 /** \brief The options by which a file comes onto the map of the command: that of the
  * first file that is on one. All files of a command, and of a series, have one
  * coordinate system so. */
@@ -111,6 +116,11 @@ void
 warnOfLosses(const std::string& path,
              const pcl_uvol::Dataset& dataset,
              pcl_uvol::Report& report);
+
+/** \brief The name of one of several files: out.ply becomes out_00010.ply.
+ * \param digits of the number at least */
+std::string
+numberedPath(const std::string& path, std::uint64_t number, std::size_t digits = 5);
 
 /** \brief Write a file, as a step of the report.
  * \throws IOError */

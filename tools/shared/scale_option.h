@@ -74,6 +74,14 @@ public:
           pcl_uvol::Report& report,
           Facts& facts) const;
 
+  /** \brief For a report: nothing unless a scale was given.
+   * \param taken has the scale and the rotation
+   * \param choice how factors were found from a field */
+  template <typename Parameters>
+  Facts
+  describe(const Parameters& taken,
+           const std::optional<pcl_uvol::ScaleChoice>& choice) const;
+
 private:
   AutomaticScale automatic_ = AutomaticScale::None;
   std::string scale_;
@@ -87,5 +95,14 @@ private:
 Facts
 describe(const pcl_uvol::detail::Stretch& stretch,
          const std::optional<pcl_uvol::ScaleChoice>& choice = std::nullopt);
+
+template <typename Parameters>
+Facts
+ScaleOption::describe(const Parameters& taken,
+                      const std::optional<pcl_uvol::ScaleChoice>& choice) const
+{
+  return is_given_ ? uvol_tools::describe({taken.scale, taken.rotation}, choice)
+                   : Facts();
+}
 
 } // namespace uvol_tools

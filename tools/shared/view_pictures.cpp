@@ -46,12 +46,7 @@ ViewOptions::frameName(const std::string& output, std::uint64_t frame) const
 {
   if (frames_ == 1)
     return output;
-  const std::filesystem::path path(output);
-  std::ostringstream name;
-  name << path.stem().string() << '_'
-       << std::setw(static_cast<int>(std::to_string(frames_ - 1).size()))
-       << std::setfill('0') << frame << path.extension().string();
-  return (path.parent_path() / name.str()).string();
+  return numberedPath(output, frame, std::to_string(frames_ - 1).size());
 }
 
 bool

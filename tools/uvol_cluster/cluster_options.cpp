@@ -35,7 +35,8 @@ ClusterOptions::declare(Options& options)
                  "persistence)");
   options.flag("single", single, "all points may be one cluster");
   options.group("Output");
-  options.output("tree", "out.csv", tree, "write the tree of clusters");
+  options.output("tree", "out.csv", tree, "write the tree of clusters")
+      .check(pcl_uvol::checkTablePath);
   options.group("Input");
   options.text("label",
                "name",
@@ -104,8 +105,6 @@ ClusterOptions::finish(const Options& options)
   pcl_uvol::checkSavePath(output);
   if (isMesh())
     pcl_uvol::checkMeshPath(output);
-  if (!tree.empty())
-    pcl_uvol::checkTablePath(tree);
   if (tree == output)
     throw UsageError("-tree and the output are the same file.");
 }

@@ -171,9 +171,6 @@ PipelineOptions::checkCombinations(const Options& options) const
         "-where, -scale auto or spacing, -rotate, -validate, -fill-gaps, -mesh, "
         "-measure, -neighbors voronoi or exact and derivatives as fields: they need "
         "all samples.");
-  if (periodic.isAskedFor() && isTurned(parameters))
-    throw UsageError("-periodic goes without -rotate and a -scale of nine numbers: the "
-                     "sides of the box lie along x, y and z.");
   if (periodic.isAskedFor() && (std::isfinite(outside_value) ||
                                 options.given("validate") || parameters.fill_gaps))
     throw UsageError(
@@ -221,7 +218,7 @@ PipelineOptions::finish(const Options& options)
   if (std::isfinite(outside_value) && !options.given("interpolation") &&
       !parameters.mesh)
     parameters.isosurface.interpolation = pcl_uvol::Interpolation::Linear;
-  periodic.check();
+  periodic.check(isTurned(parameters));
   checkCombinations(options);
   if (!parameters.mesh)
     pcl_uvol::checkSavePath(output);

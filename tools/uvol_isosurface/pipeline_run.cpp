@@ -12,7 +12,6 @@
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
 #include <memory>
-#include <optional>
 
 namespace uvol_tools {
 
@@ -78,20 +77,12 @@ runInMemory(const Options& options,
   pipeline.setParameters(parameters);
   pipeline.setNumberOfThreads(options.threads());
   pipeline.setProgressCallback(report.progress);
-  IsosurfacePipelineParameters resolved = parameters;
-  std::optional<pcl_uvol::ScaleChoice> choice;
-  resolved.isosurface = pipeline.resolveParameters(&choice);
-  resolved.automatic_scale = false; // it is filled in now
-  pipeline.setParameters(resolved);
   IsosurfaceResult result = pipeline.run();
-  result.scale_choice = choice;
-  if ((resolved.periodic > 0.0).any()) {
+  const Eigen::Array3d& sides = parameters.periodic;
+  if ((sides > 0.0).any()) {
     Report own; // the pipeline has told of samples outside
     figures.push_back(describeBox(
-        pcl_uvol::findPeriodicBox(
-            *samples,
-            {{resolved.periodic[0], resolved.periodic[1], resolved.periodic[2]}},
-            own),
+        pcl_uvol::findPeriodicBox(*samples, {{sides[0], sides[1], sides[2]}}, own),
         samples->origin));
   }
   for (const Fact& fact : measureResult(options, arguments, samples, result))

@@ -143,12 +143,6 @@ describeMesh(const pcl_uvol::IsosurfaceResult& result, bool is_measured)
           {"smallest angle", angle.str(), result.smallest_angle}};
 }
 
-void
-append(Facts& facts, const Facts& more)
-{
-  facts.insert(facts.end(), more.begin(), more.end());
-}
-
 } // namespace
 
 Facts

@@ -2,6 +2,7 @@
 #include "uvol_isosurface/surface_picture.h"
 
 #include "charts/picture_file.h"
+#include "common/report_parts.h"
 #include "surface/memory_need.h"
 
 #include <string>
@@ -31,7 +32,8 @@ void
 SurfacePicture::declare(Options& options)
 {
   options.group("Picture");
-  options.output("png", "out.png|.svg|.pdf", path_, "draw the isosurface as well");
+  options.output("png", "out.png|.svg|.pdf", path_, "draw the isosurface as well")
+      .check(checkPicturePath);
   options.flag("raytrace", is_ray_traced_, "by ray tracing of splats").rare();
   look_.declareView(options);
   look_.declareExaggeration(options);
@@ -52,8 +54,6 @@ SurfacePicture::check(const Options& options)
     refuseImageSpace(options);
   look_.check(options);
   rays_.check(options);
-  if (!path_.empty())
-    checkPicturePath(path_);
 }
 
 void
@@ -101,7 +101,7 @@ SurfacePicture::draw(const Options& options,
   for (const auto& [pass, milliseconds] : drawing.milliseconds)
     report.time("picture_" + pass, milliseconds);
   if (is_ray_traced_)
-    report.count("splats", drawing.getCount("splats"));
+    pcl_uvol::addCounts(drawing, {"splats"}, report);
   return backend;
 }
 

@@ -69,11 +69,13 @@ void
 ProbePicture::declare(Options& options)
 {
   options.group("Picture");
-  options.output("png",
-                 "out.png|.svg|.pdf",
-                 path_,
-                 "draw the first field as well, of -line or -plane; the options below "
-                 "are for the picture");
+  options
+      .output("png",
+              "out.png|.svg|.pdf",
+              path_,
+              "draw the first field as well, of -line or -plane; the options below "
+              "are for the picture")
+      .check(checkPicturePath);
   options.numbers("contours", "v,...", 0, contours_, "draw lines of these values");
   colors_.declare(options);
   options
@@ -105,7 +107,6 @@ ProbePicture::finish(const Options& options,
   if (!is_plane && !is_line)
     throw UsageError("-png needs -plane or -line.");
   colors_.check();
-  checkPicturePath(path_);
 }
 
 void

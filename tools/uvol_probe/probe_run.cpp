@@ -325,7 +325,7 @@ Runner::probeLattice()
   const Facts written = isWrittenInParts(probe_.queries, probe_.output)
                             ? writeLattice(slice)
                             : writeLatticeAsPoints(slice);
-  facts.insert(facts.end(), written.begin(), written.end());
+  append(facts, written);
   return facts;
 }
 

@@ -4,6 +4,8 @@
 #include "common/printable.h"
 
 #include <algorithm>
+#include <map>
+#include <string>
 
 namespace uvol_tools {
 
@@ -83,16 +85,12 @@ QueryOptions::declare(Options& options)
 void
 QueryOptions::finish(const Options& options)
 {
-  const std::pair<const char*, Kind> kinds[] = {{"points", Kind::Points},
-                                                {"line", Kind::Line},
-                                                {"plane", Kind::Plane},
-                                                {"grid", Kind::Grid}};
-  for (const auto& [name, kind] : kinds)
-    if (options.given(name)) {
-      if (kind_ != Kind::None)
-        throw UsageError("Only one of -points, -line, -plane and -grid can be given.");
-      kind_ = kind;
-    }
+  const std::map<std::string, Kind> kinds = {{"points", Kind::Points},
+                                             {"line", Kind::Line},
+                                             {"plane", Kind::Plane},
+                                             {"grid", Kind::Grid},
+                                             {"", Kind::None}};
+  kind_ = kinds.at(options.oneOf({"points", "line", "plane", "grid"}));
   const std::array<const char*, 2> needs[] = {{"n", "line"}, {"size", "plane"}};
   for (const auto& [option, other] : needs)
     if (options.given(option) && !options.given(other))

@@ -113,12 +113,14 @@ VariogramOutput::declare(Options& options)
           "with kriging: write the variogram of the first field and its model, from "
           "all pairs of 600 samples drawn (or of all, if fewer) and those of each with "
           "its 32 nearest, in all directions and along each axis")
+      .check(pcl_uvol::checkTablePath)
       .rare();
   options
       .output("variogram-png",
               "out.png|.svg|.pdf",
               picture_,
               "with kriging: draw that variogram")
+      .check(checkPicturePath)
       .rare();
 }
 
@@ -131,10 +133,6 @@ VariogramOutput::finish(const Options& options,
   for (const char* const option : {"variogram-csv", "variogram-png"})
     if (options.given(option) && model != pcl_uvol::InterpolationModel::Kriging)
       throw UsageError(std::string("-") + option + " needs -model kriging.");
-  if (!table_.empty())
-    pcl_uvol::checkTablePath(table_);
-  if (!picture_.empty())
-    checkPicturePath(picture_);
 }
 
 Facts

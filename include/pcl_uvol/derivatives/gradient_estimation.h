@@ -14,6 +14,7 @@
 #include <pcl/type_traits.h>
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <string>
@@ -197,13 +198,12 @@ GradientEstimation<PointInT, PointOutT>::compute(pcl::PointCloud<PointOutT>& out
       organized ? this->input_->width : static_cast<std::uint32_t>(gradients.size());
   output.height = organized ? this->input_->height : 1;
   output.header = this->input_->header;
-  output.is_dense = report_.getCount("non_finite") == 0 &&
-                    report_.getCount("no_value") == 0 &&
-                    report_.getCount("samples") > 1;
+  output.is_dense = true;
   for (std::size_t i = 0; i < gradients.size(); ++i) {
     output[i].gradient_x = gradients[i].gradient_x;
     output[i].gradient_y = gradients[i].gradient_y;
     output[i].gradient_z = gradients[i].gradient_z;
+    output.is_dense = output.is_dense && std::isfinite(gradients[i].gradient_x);
     if constexpr (pcl::traits::has_field<PointOutT, pcl::fields::mean_curvature>::value)
       output[i].mean_curvature = gradients[i].mean_curvature;
   }

@@ -125,6 +125,25 @@ struct IsoEdge {
 /** \brief One edge per isopoint, in the order of the isopoints. */
 using IsoEdges = std::vector<IsoEdge>;
 
+/** \brief What tells how far a surface can be believed, over all of its isovalues.
+ * Parts of a surface, of pieces or processes, are added up. */
+struct PCL_UVOL_EXPORTS SurfaceTally {
+  std::uint64_t crossing = 0; ///< samples that touch one on the other side
+  std::uint64_t spikes = 0;   ///< of these, those whose values stand alone
+  /** Isopoints that Interpolation::Auto removed, as the samples around are all on one
+   * side. */
+  std::uint64_t contradicted = 0;
+  /** Linear isopoints whose support fits told, at most 1024 of an isovalue, and those
+   * of support Bridged and Rim. @{ */
+  std::uint64_t examined = 0, examined_bridged = 0, examined_rim = 0;
+  /** @} */
+
+  /** \brief Add those of another part.
+   * \param other part of the same surface */
+  void
+  add(const SurfaceTally& other);
+};
+
 /** \brief Add to a cloud of isopoints every field of the samples' cloud that it lacks,
  * under its own name, type and count.
  *
@@ -292,6 +311,13 @@ public:
     return edges_;
   }
 
+  /** \brief Spikes, contradicted and examined isopoints of the last extract(). */
+  const SurfaceTally&
+  getTally() const
+  {
+    return tally_;
+  }
+
   /** \brief Samples and tree of the last extract(). */
   const std::shared_ptr<const SampleSet>&
   getSamples() const
@@ -348,6 +374,7 @@ private:
   std::uint64_t sampled_fingerprint_ = 0;          // of all input positions
   Eigen::Array3f sampled_scale_{1.0f, 1.0f, 1.0f}; // scale behind samples_
   Report sampled_report_;                          // what building samples_ counted
+  SurfaceTally tally_;
   IsoEdges edges_;
 };
 

@@ -301,9 +301,9 @@ public:
   }
 
   /** \brief Whether evolve(), where samples do not lie all around, looks at what the
-   * surface rests on: the report then counts as examined, examined_bridged and
-   * examined_rim how many isopoints on edges were looked at, at most 1024, and those in
-   * gaps and on rims. Default: not. */
+   * surface rests on: getTally() and the report then count how many isopoints on edges
+   * were looked at, at most 1024, and those in gaps and on rims, as examined,
+   * examined_bridged and examined_rim. Default: not. */
   void
   setExamined(bool is_examined)
   {
@@ -383,6 +383,14 @@ public:
     return sampling_;
   }
 
+  /** \brief What was examined in the last evolve(), see setExamined(); the rest is 0.
+   */
+  const SurfaceTally&
+  getTally() const
+  {
+    return tally_;
+  }
+
 private:
   /** Calls take(cloud, indices, level_set). */
   template <typename TakeT>
@@ -391,6 +399,7 @@ private:
 
   bool is_examined_ = false;
   std::optional<SamplingSummary> sampling_;
+  SurfaceTally tally_;
   std::size_t snapshot_steps_ = 0;
   SnapshotCallback snapshot_;
   LevelSetSummary summary_;
@@ -408,6 +417,7 @@ LevelSetEvolution<PointT>::evolveInput(const TakeT& take)
                     startReport();
                     summary_ = LevelSetSummary();
                     sampling_.reset();
+                    tally_ = {};
                     LevelSet evolved = detail::evolveLevelSet(cloud,
                                                               indices,
                                                               parameters_,
@@ -418,6 +428,7 @@ LevelSetEvolution<PointT>::evolveInput(const TakeT& take)
                                                               report_);
                     summary_ = evolved.summary;
                     sampling_ = evolved.sampling;
+                    tally_ = evolved.tally;
                     sources_ = evolved.sources;
                     deviations_ = std::move(evolved.deviations);
                     take(cloud, indices, evolved);

@@ -184,6 +184,23 @@ struct LevelSetStep {
   double slope_error; ///< mean of | |grad phi| - 1 |
   double energy;      ///< mean of mu (f - f_iso - phi)^2 / 2 + (1 - mu) |grad phi|
   bool reinitialized; ///< after it
+
+  /** \return The members under the names that tables and Python have for them. */
+  static auto
+  listMembers()
+  {
+    using Own = LevelSetStep;
+    return std::make_tuple(
+        Member{"time", &Own::time},
+        Member{"change",
+               &Own::change,
+               {"change of the zero level, spacings per unit of time"}},
+        Member{"min_slope", &Own::min_slope},
+        Member{"max_slope", &Own::max_slope},
+        Member{"slope_error", &Own::slope_error, {"mean of | |grad phi| - 1 |"}},
+        Member{"energy", &Own::energy, {"energy"}},
+        Member{"reinitialized", &Own::reinitialized});
+  }
 };
 
 /** \brief What an evolution found out. */
@@ -254,7 +271,7 @@ struct PCL_UVOL_EXPORTS LevelSetParameters {
     constexpr double above_zero = std::numeric_limits<double>::min();
     return std::make_tuple(
         Member{"field", &Own::field},
-        Member{"isovalue", &Own::isovalue},
+        Member{"isovalue", &Own::isovalue, {"isovalue (required)", -none, none, "iso"}},
         Member{
             "mu",
             &Own::mu,
@@ -335,6 +352,7 @@ struct LevelSet {
                                       ///< merged ones one
   LevelSetSummary summary;
   std::optional<SamplingSummary> sampling; ///< how the samples lie
+  SurfaceTally tally;                      ///< see LevelSetEvolution::getTally()
 };
 
 } // namespace pcl_uvol

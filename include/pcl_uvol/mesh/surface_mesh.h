@@ -121,6 +121,11 @@ struct PCL_UVOL_EXPORTS SurfaceTriangles {
   std::vector<SurfacePiece> pieces;
   double smallest_angle = 180.0; ///< of all triangles, in degrees
   double cap_part = 0.0;         ///< of the area, in caps
+  /** Triangles that look away from their vertices' normals, and those with an angle
+   * below 5 degrees. @{ */
+  std::uint64_t folds = 0, slivers = 0;
+  /** @} */
+  SurfaceTally tally; ///< of the isosurfaces
 
   /** \brief Add another mesh behind this one.
    * \param other whose indices and pieces are shifted behind those here */

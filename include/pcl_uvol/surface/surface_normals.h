@@ -13,6 +13,7 @@
 #include <Eigen/Core>
 #include <pcl/search/search.h>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -212,11 +213,12 @@ SurfaceNormalEstimation<PointInT, PointOutT>::compute(
       organized ? this->input_->width : static_cast<std::uint32_t>(normals.size());
   output.height = organized ? this->input_->height : 1;
   output.header = this->input_->header;
-  output.is_dense = report_.getCount("non_finite") == 0;
+  output.is_dense = true;
   for (std::size_t i = 0; i < normals.size(); ++i) {
     output[i].normal_x = normals[i].normal[0];
     output[i].normal_y = normals[i].normal[1];
     output[i].normal_z = normals[i].normal[2];
+    output.is_dense = output.is_dense && std::isfinite(normals[i].normal[0]);
     output[i].curvature = normals[i].curvature;
   }
 }

@@ -29,13 +29,8 @@ describeSteps(const std::vector<LevelSetStep>& steps)
   py::list list;
   for (const LevelSetStep& step : steps) {
     py::dict dict;
-    dict["time"] = step.time;
-    dict["change"] = step.change;
-    dict["min_slope"] = step.min_slope;
-    dict["max_slope"] = step.max_slope;
-    dict["slope_error"] = step.slope_error;
-    dict["energy"] = step.energy;
-    dict["reinitialized"] = step.reinitialized;
+    forEachMember<LevelSetStep>(
+        [&](const char* name, auto pointer) { dict[name] = step.*pointer; });
     list.append(dict);
   }
   return list;
