@@ -13,7 +13,7 @@ shift
 
 packages=(build-essential cmake ninja-build ccache
   libpcl-dev libvtk9-dev libflann-dev liblz4-dev liblzf-dev libpng-dev zlib1g-dev nlohmann-json3-dev libmuparser-dev
-  libbz2-dev libzstd-dev libnetcdf-dev libcairo2-dev pkgconf libgl-dev libegl-dev libx11-dev)
+  libbz2-dev libzstd-dev liblzma-dev libnetcdf-dev libcairo2-dev pkgconf libgl-dev libegl-dev libx11-dev)
 configure=()
 cache=build/$preset/CMakeCache.txt
 if [ "$target" != demo ]; then

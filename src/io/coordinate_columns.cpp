@@ -16,7 +16,16 @@ namespace pcl_uvol::io {
 namespace {
 
 /** Ways to name coordinates, the plainest first. */
-enum System { Plain, WithUnit, Projected, Geographic, CommonEnding, systems };
+enum System {
+  Plain,
+  WithUnit,
+  Projected,
+  Geographic,
+  CommonEnding,
+  Prefixed,
+  Numbered,
+  systems
+};
 
 struct Axis {
   System system;
@@ -52,6 +61,7 @@ isFiller(const std::string& word)
                            "centroid",
                            "mid",
                            "midpoint",
+                           "cell",
                            "minus"};
   return words.count(word) > 0;
 }
@@ -82,12 +92,40 @@ isLength(const std::string& unit)
   return units.count(unit) > 0;
 }
 
+/** Depths in the languages of Europe's surveys. */
+bool
+saysDepth(const std::string& word)
+{
+  static const Words words{
+      "depth", "tiefe", "teufe", "profondeur", "profundidad", "profondit\xc3\xa0"};
+  return words.count(word) > 0;
+}
+
+bool
+saysHeight(const std::string& word)
+{
+  static const Words words{"h\xc3\xb6he",
+                           "hoehe",
+                           "hauteur",
+                           "elevaci\xc3\xb3n",
+                           "elevacion",
+                           "cota",
+                           "quota"};
+  return words.count(word) > 0;
+}
+
 bool
 isVertical(const std::string& word)
 {
-  static const Words words{
-      "z", "elevation", "elev", "rl", "altitude", "alt", "height", "depth"};
-  return words.count(word) > 0;
+  static const Words words{"z", "elevation", "elev", "rl", "altitude", "alt", "height"};
+  return words.count(word) > 0 || saysDepth(word) || saysHeight(word);
+}
+
+/** As in NetCDF files of floats: a decibar of sea water is a metre deep. */
+bool
+isPressure(const std::string& word)
+{
+  return word == "pres" || word == "pressure";
 }
 
 bool
@@ -108,6 +146,10 @@ listMapAxes()
                                                 {"northing", {Projected, 1}},
                                                 {"northings", {Projected, 1}},
                                                 {"north", {Projected, 1}},
+                                                {"rechtswert", {Projected, 0}},
+                                                {"ostwert", {Projected, 0}},
+                                                {"hochwert", {Projected, 1}},
+                                                {"nordwert", {Projected, 1}},
                                                 {"longitude", {Geographic, 0}},
                                                 {"lon", {Geographic, 0}},
                                                 {"long", {Geographic, 0}},
@@ -169,8 +211,8 @@ splitName(const std::string& name)
   Parts parts;
   for (const std::string& word : splitIntoWords(name)) {
     parts.is_quantity = parts.is_quantity || isQuantity(word);
-    if (parts.word.empty() &&
-        (isLetter(word) || isVertical(word) || listMapAxes().count(word) > 0))
+    if (parts.word.empty() && (isLetter(word) || isVertical(word) || isPressure(word) ||
+                               listMapAxes().count(word) > 0))
       parts.word = word;
     else if (!isFiller(word)) {
       std::string& text = parts.word.empty() ? parts.before : parts.unit;
@@ -180,6 +222,21 @@ splitName(const std::string& name)
   if (parts.before == "utm" && parts.unit.empty())
     parts.before.swap(parts.unit);
   return parts;
+}
+
+/** As px, of a place and no vector: a letter before x, y or z, or a number behind x. */
+std::optional<Axis>
+findPrefixed(std::string_view name)
+{
+  if (name.size() != 2)
+    return std::nullopt;
+  const std::string word = lowerCase(name);
+  if (std::string_view("pr").find(word[0]) != std::string_view::npos &&
+      isLetter(word.substr(1)))
+    return Axis{Prefixed, static_cast<std::size_t>(word[1] - 'x')};
+  if (word[0] == 'x' && word[1] >= '1' && word[1] <= '3')
+    return Axis{Numbered, static_cast<std::size_t>(word[1] - '1')};
+  return std::nullopt;
 }
 
 /** What a column is an axis of; verticals are those of every system but the plainest.
@@ -204,6 +261,10 @@ listAxes(const std::string& name, const Parts& parts)
   if (const auto axis = listMapAxes().find(word);
       axis != listMapAxes().end() && (word.size() > 1 || has_known_unit))
     axes.push_back(axis->second);
+  if (isPressure(word))
+    axes.push_back({Geographic, 2});
+  if (const auto axis = findPrefixed(trimmed(name)))
+    axes.push_back(*axis);
   if (!isVertical(word) || (isLetter(word) && !before.empty()))
     return axes;
   axes.push_back({Projected, 2});
@@ -236,8 +297,12 @@ makeCandidate(std::size_t column, System system, const Parts& parts)
     return {column, "", parts.word.size() > 1 ? 1 : has_known_unit ? 0 : 2};
   const bool has_degrees = parts.unit.rfind("deg", 0) == 0;
   return {column,
-          system == Plain ? "" : parts.before,
-          has_known_unit || has_degrees ? 0 : 1};
+          system == Plain || system == Numbered ? ""
+          : system == Prefixed                  ? parts.before.substr(0, 1)
+                                                : parts.before,
+          isPressure(parts.word)          ? 2
+          : has_known_unit || has_degrees ? 0
+                                          : 1};
 }
 
 /** The three columns of a system. Where several unknown endings have three columns
@@ -320,7 +385,7 @@ describeColumns(System system,
                         {"z", z},
                         {"are_degrees", are_degrees},
                         {"can_be_mapped", areGlobal(found, names)}}};
-  if (system == CommonEnding)
+  if (system >= CommonEnding)
     columns.note = {
         "common_ending",
         {{"x", shortenText(x)}, {"y", shortenText(y)}, {"z", shortenText(z)}}};
@@ -362,7 +427,7 @@ bool
 isDownwards(const std::string& name)
 {
   const std::string word = pcl_uvol::splitName(name).word;
-  return word == "depth" || word == "pres" || word == "pressure";
+  return saysDepth(word) || isPressure(word);
 }
 
 std::optional<std::string>

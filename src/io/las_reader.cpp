@@ -10,6 +10,10 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace pcl_uvol {
 namespace io {
@@ -34,10 +38,14 @@ numberAt(const std::string& bytes, std::size_t offset)
 
 /** A number of a point, at its place in the file; some share a byte. */
 struct Attribute {
-  const char* name;
+  std::string name;
   std::uint8_t datatype;
   std::size_t offset;
   std::uint8_t shift = 0, mask = 0; ///< of the bits in a byte; 0: the whole number
+  /** Of a number that stands for another one, a double. */
+  bool is_scaled = false;
+  double factor = 1.0, added = 0.0;
+  std::optional<double> missing = std::nullopt; ///< the number that stands for NaN
 };
 
 std::vector<Attribute>
@@ -83,7 +91,131 @@ struct LasHeader {
   std::size_t format = 0, point_bytes = 0;
   std::uint64_t points = 0, offset = 0;
   std::array<double, 3> scale{}, shift{};
+  std::uint64_t records = 0; ///< where the variable length records begin
+  std::size_t record_count = 0;
 };
+
+/** The datatypes of extra bytes, from 1 on (LAS 1.4, table 24). */
+constexpr std::array<std::uint8_t, 11> extra_types{{0,
+                                                    Type::UINT8,
+                                                    Type::INT8,
+                                                    Type::UINT16,
+                                                    Type::INT16,
+                                                    Type::UINT32,
+                                                    Type::INT32,
+                                                    Type::UINT64,
+                                                    Type::INT64,
+                                                    Type::FLOAT32,
+                                                    Type::FLOAT64}};
+
+double
+readNumber(std::uint8_t datatype, const char* bytes)
+{
+  const auto read = [bytes](auto number) {
+    std::memcpy(&number, bytes, sizeof(number));
+    return static_cast<double>(number);
+  };
+  switch (datatype) {
+  case Type::UINT8:
+    return read(std::uint8_t());
+  case Type::INT8:
+    return read(std::int8_t());
+  case Type::UINT16:
+    return read(std::uint16_t());
+  case Type::INT16:
+    return read(std::int16_t());
+  case Type::UINT32:
+    return read(std::uint32_t());
+  case Type::INT32:
+    return read(std::int32_t());
+  case Type::UINT64:
+    return read(std::uint64_t());
+  case Type::INT64:
+    return read(std::int64_t());
+  case Type::FLOAT32:
+    return read(0.0f);
+  default:
+    return read(0.0);
+  }
+}
+
+/** A text of that many bytes at most, which may end with zeros. */
+std::string
+textAt(const std::string& bytes, std::size_t offset, std::size_t most)
+{
+  const std::string text = bytes.substr(offset, most);
+  return text.substr(0, text.find('\0'));
+}
+
+/** One description of 192 bytes: what is at a place of the extra bytes.
+ * \param offset is moved behind it
+ * \param attributes get it, unless its bytes have no type */
+void
+addExtra(const std::string& bytes,
+         std::size_t& offset,
+         std::vector<Attribute>& attributes)
+{
+  constexpr unsigned has_missing = 1, has_scale = 8, has_offset = 16;
+  const auto type = numberAt<std::uint8_t>(bytes, 2);
+  const unsigned options = numberAt<std::uint8_t>(bytes, 3);
+  if (type == 0 || type > 30) {
+    offset += options; // that many bytes without a type
+    return;
+  }
+  const std::size_t count = 1 + (type - 1) / 10; // numbers of vectors follow each other
+  const std::uint8_t datatype = extra_types[1 + (type - 1) % 10];
+  for (std::size_t i = 0; i < count; ++i, offset += datatypeSize(datatype)) {
+    Attribute extra;
+    extra.name = textAt(bytes, 4, 32);
+    if (count > 1)
+      extra.name += '_' + std::to_string(i);
+    extra.datatype = datatype;
+    extra.offset = offset;
+    if (options & has_missing) // of the widest type of its kind
+      extra.missing =
+          datatype == Type::FLOAT32 || datatype == Type::FLOAT64
+              ? numberAt<double>(bytes, 40 + 8 * i)
+          : (type - 1) % 2 == 0 // unsigned
+              ? static_cast<double>(numberAt<std::uint64_t>(bytes, 40 + 8 * i))
+              : static_cast<double>(numberAt<std::int64_t>(bytes, 40 + 8 * i));
+    if (options & has_scale)
+      extra.factor = numberAt<double>(bytes, 112 + 8 * i);
+    if (options & has_offset)
+      extra.added = numberAt<double>(bytes, 136 + 8 * i);
+    extra.is_scaled = (options & (has_missing | has_scale | has_offset)) != 0;
+    attributes.push_back(extra);
+  }
+}
+
+/** The extra bytes that a variable length record describes.
+ * \param end is moved behind them */
+std::vector<Attribute>
+listExtras(const InputFile& file, const LasHeader& header, std::size_t& end)
+{
+  constexpr std::size_t record_bytes = 54, description_bytes = 192;
+  std::vector<Attribute> extras;
+  std::uint64_t at = header.records;
+  for (std::size_t i = 0; i < header.record_count; ++i) {
+    if (at + record_bytes > header.offset)
+      break;
+    std::string record(record_bytes, '\0');
+    file.read(at, record.data(), record.size());
+    const auto length = numberAt<std::uint16_t>(record, 20);
+    at += record_bytes;
+    if (textAt(record, 2, 16) == "LASF_Spec" &&
+        numberAt<std::uint16_t>(record, 18) == 4 && at + length <= header.offset)
+      for (std::size_t from = 0; from + description_bytes <= length;
+           from += description_bytes) {
+        std::string description(description_bytes, '\0');
+        file.read(at + from, description.data(), description.size());
+        addExtra(description, end, extras);
+      }
+    at += length;
+  }
+  if (end > header.point_bytes) // which says something else
+    extras.clear();
+  return extras;
+}
 
 LasHeader
 readHeader(const InputFile& file, const std::string& path)
@@ -111,6 +243,8 @@ readHeader(const InputFile& file, const std::string& path)
   header.format = format;
   header.point_bytes = numberAt<std::uint16_t>(bytes, 105);
   header.offset = numberAt<std::uint32_t>(bytes, 96);
+  header.records = numberAt<std::uint16_t>(bytes, 94);
+  header.record_count = numberAt<std::uint32_t>(bytes, 100);
   header.points = numberAt<std::uint32_t>(bytes, 107);
   if (minor == 4) {
     if (bytes.size() < long_header_bytes)
@@ -143,14 +277,23 @@ public:
       , attributes_(listAttributes(header_.format))
   {
     info_.count = header_.points;
+    const std::size_t known = format_bytes[header_.format];
+    std::size_t end = known;
+    const std::vector<Attribute> extras = listExtras(file_, header_, end);
+    attributes_.insert(attributes_.end(), extras.begin(), extras.end());
     for (const char* const axis : {"x", "y", "z"})
       appendField(info_.fields, axis, Type::FLOAT64);
+    std::vector<std::string> names{"x", "y", "z"};
     for (const Attribute& attribute : attributes_)
-      appendField(info_.fields, attribute.name, attribute.datatype);
-    if (header_.point_bytes > format_bytes[header_.format])
-      info_.notes.push_back(
-          {"extra_bytes",
-           {{"bytes", header_.point_bytes - format_bytes[header_.format]}}});
+      names.push_back(attribute.name);
+    makeUnique(names);
+    for (std::size_t i = 0; i < attributes_.size(); ++i)
+      appendField(info_.fields,
+                  names[3 + i],
+                  attributes_[i].is_scaled ? std::uint8_t{Type::FLOAT64}
+                                           : attributes_[i].datatype);
+    if (header_.point_bytes > known && extras.empty())
+      info_.notes.push_back({"extra_bytes", {{"bytes", header_.point_bytes - known}}});
   }
 
   void
@@ -162,7 +305,7 @@ private:
 
   const InputFile file_;
   const LasHeader header_;
-  const std::vector<Attribute> attributes_;
+  std::vector<Attribute> attributes_;
   std::vector<std::uint8_t> block_;
 };
 
@@ -194,6 +337,15 @@ LasSource::convert(const std::uint8_t* point, std::uint8_t* record) const
   for (std::size_t i = 0; i < attributes_.size(); ++i) {
     const Attribute& attribute = attributes_[i];
     const pcl::PCLPointField& field = info_.fields[3 + i];
+    if (attribute.is_scaled) {
+      const double raw = readNumber(
+          attribute.datatype, reinterpret_cast<const char*>(point) + attribute.offset);
+      const double value = attribute.missing && raw == *attribute.missing
+                               ? std::numeric_limits<double>::quiet_NaN()
+                               : raw * attribute.factor + attribute.added;
+      std::memcpy(record + field.offset, &value, sizeof(value));
+      continue;
+    }
     std::memcpy(record + field.offset, point + attribute.offset, fieldBytes(field));
     if (attribute.mask != 0)
       record[field.offset] =

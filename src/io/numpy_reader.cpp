@@ -406,6 +406,13 @@ openNpz(const std::string& path)
     tables.push_back(
         {array.name, array.rows(), array.is_structured ? 0 : array.components()});
   const std::vector<std::size_t> positions = findPositionTables(tables);
+  const auto has = [&](const char* name) {
+    return std::any_of(arrays.begin(), arrays.end(), [&](const Array& array) {
+      return array.name == name;
+    });
+  };
+  if (positions.empty() && has("x") && has("y") && !has("z"))
+    throw IOError("z_is_missing", {{"path", printable(path)}});
   if (positions.empty())
     throwUnreadable(path,
                     "no array of it has a usual name of coordinates (" +

@@ -52,8 +52,8 @@ parseDatatype(std::string_view type, std::string_view size)
                {'U', '4', Type::UINT32},
                {'U', '8', Type::UINT64}};
   for (const auto& known : types)
-    if (type.size() == 1 && size.size() == 1 && type[0] == known.type &&
-        size[0] == known.size)
+    if (size.size() == 1 && size[0] == known.size && type.size() == 1 &&
+        lowerCase(type)[0] == lowerCase({&known.type, 1})[0])
       return static_cast<std::uint8_t>(known.datatype);
   return 0;
 }
@@ -77,6 +77,9 @@ public:
 private:
   std::uint64_t
   countIn(const Words& words) const;
+
+  std::string
+  nameOf(const std::string& name) const;
 
   const std::string& path_;
   std::size_t line_ = 0;
@@ -149,6 +152,17 @@ PcdHeaderParser::take(std::string_view line, std::size_t number)
   return false;
 }
 
+/** Coordinates may be in capitals. */
+std::string
+PcdHeaderParser::nameOf(const std::string& name) const
+{
+  const std::string lower = lowerCase(name);
+  const bool is_axis = lower.size() == 1 && lower[0] >= 'x' && lower[0] <= 'z';
+  return is_axis && std::find(names_.begin(), names_.end(), lower) == names_.end()
+             ? lower
+             : name;
+}
+
 Header
 PcdHeaderParser::finish() const
 {
@@ -175,7 +189,7 @@ PcdHeaderParser::finish() const
     bytes += count * datatypeSize(datatype);
     if (bytes > most_points)
       throwUnreadable(path_, "the fields of its header are too large");
-    appendField(header.info.fields, names_[i], datatype, count);
+    appendField(header.info.fields, nameOf(names_[i]), datatype, count);
   }
   const std::uint64_t height = has_height_ ? height_ : 1;
   if (!has_points_ && !has_width_)
@@ -281,6 +295,8 @@ private:
   finish() override;
   void
   nextWords();
+  void
+  splitAtCommas();
 
   std::size_t numbers_ = 0; ///< of a point
   Words words_;
@@ -308,10 +324,27 @@ AsciiSource::nextWords()
                         std::to_string(next_ - 1) + " lines follow");
 }
 
+/** Numbers may have commas between them. */
+void
+AsciiSource::splitAtCommas()
+{
+  Words parts;
+  for (const std::string_view word : words_)
+    for (std::size_t at = 0; at < word.size();) {
+      const std::size_t end = std::min(word.find(',', at), word.size());
+      if (end > at)
+        parts.push_back(word.substr(at, end - at));
+      at = end + 1;
+    }
+  words_ = parts;
+}
+
 void
 AsciiSource::readRecord(std::uint8_t* record)
 {
   nextWords();
+  if (words_.size() < numbers_ || words_[0].find(',') != std::string_view::npos)
+    splitAtCommas();
   if (words_.size() != numbers_)
     throwUnreadable(path_,
                     cursor_->tell().line,

@@ -18,20 +18,35 @@ using Type = pcl::PCLPointField;
 
 constexpr double exact_integers = 0x1p53; ///< double holds the integers below
 
+/** A number as C++ writes it: with a point, and e before the exponent. */
+std::string
+plainDigits(std::string_view cell)
+{
+  std::string digits(trimmed(cell));
+  for (char& c : digits)
+    c = c == ',' ? '.' : c == 'd' || c == 'D' ? 'e' : c;
+  return digits;
+}
+
 } // namespace
 
 double
 TextColumn::take(std::string_view text, std::size_t line)
 {
   double value = std::numeric_limits<double>::quiet_NaN();
-  const bool parsed = parseNumber(text, value);
+  bool parsed = parseCell(text, decimal, value);
+  if (!parsed && isBelow(text, decimal, value)) {
+    parsed = true;
+    ++below;
+    text.remove_prefix(1);
+  }
   if (parsed && !std::isnan(value)) {
     ++numbers;
     low = std::min(low, value);
     high = std::max(high, value);
-    floats = floats && floatHoldsDigits(text, value);
+    floats = floats && floatHoldsDigits(plainDigits(text), value);
     integers = integers && std::floor(value) == value &&
-               text.find_first_of(".eE") == std::string_view::npos;
+               text.find_first_of(".,eEdD") == std::string_view::npos;
     inexact = inexact || (integers && std::abs(value) >= exact_integers);
     return value;
   }
@@ -67,11 +82,34 @@ isMissing(std::string_view cell)
   return lower == "nan" || lower == "na" || lower == "n/a" || lower == "null";
 }
 
+bool
+parseCell(std::string_view cell, char decimal, double& value)
+{
+  const bool has_comma = decimal == ',' && cell.find(',') != std::string_view::npos;
+  if (decimal == ',' && cell.find('.') != std::string_view::npos)
+    return false; // thousands, dates
+  if (!has_comma && parseNumber(cell, value))
+    return true;
+  if (cell.empty() ||
+      std::string_view("+-.,0123456789").find(cell[0]) == std::string_view::npos)
+    return false;
+  return (has_comma || cell.find_first_of("dD") != std::string_view::npos) &&
+         parseNumber(plainDigits(cell), value);
+}
+
+bool
+isBelow(std::string_view cell, char decimal, double& limit)
+{
+  return cell.size() > 1 && cell[0] == '<' &&
+         parseCell(trimmed(cell.substr(1)), decimal, limit) && std::isfinite(limit);
+}
+
 double
-numberIn(std::string_view cell)
+numberIn(std::string_view cell, char decimal)
 {
   double value = std::numeric_limits<double>::quiet_NaN();
-  parseNumber(cell, value);
+  if (!parseCell(cell, decimal, value))
+    isBelow(cell, decimal, value);
   return value;
 }
 

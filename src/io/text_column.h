@@ -20,6 +20,7 @@ struct TextColumn {
   std::string name;
   std::optional<std::size_t> cell; ///< of the row; without one all values are 0
   double factor = 1.0;             ///< -1 for a coordinate that counts downwards
+  char decimal = '.';              ///< in numbers
   std::vector<double> values;      ///< if they are kept
   bool floats = true;              ///< float32 holds all digits
   bool integers = true;            ///< all cells are whole numbers
@@ -28,6 +29,8 @@ struct TextColumn {
   double high = -std::numeric_limits<double>::infinity();
   std::size_t numbers = 0;
   std::size_t texts = 0;
+  std::size_t below = 0; ///< numbers that are given as less than a limit
+  bool is_flag = false;  ///< 1 where its cell is such a number, else 0
   std::size_t first_text_line = 0;
   std::string first_text;
   std::vector<std::string> labels; ///< of a column of names, ascending
@@ -66,9 +69,20 @@ constexpr double no_name = -1.0; ///< the label of a missing name
 bool
 isMissing(std::string_view cell);
 
-/** \brief NaN where the cell holds no number. */
+/** \brief A cell as a number: also with a decimal comma, if that is the sign, and with
+ * an exponent of Fortran (0.5D-03).
+ * \return false if it holds no number */
+bool
+parseCell(std::string_view cell, char decimal, double& value);
+
+/** \brief Whether a cell is a number below a limit of detection, as "<0.25".
+ * \param limit gets that */
+bool
+isBelow(std::string_view cell, char decimal, double& limit);
+
+/** \brief NaN where the cell holds no number; the limit of one below it. */
 double
-numberIn(std::string_view cell);
+numberIn(std::string_view cell, char decimal);
 
 /** \brief A cell as it is meant: of two quotes one. */
 std::string

@@ -7,6 +7,7 @@
 #include "io/formats.h"
 #include "io/record_source.h"
 #include "io/text_column.h"
+#include "io/text_head.h"
 #include "io/text_rows.h"
 #include <pcl_uvol/common/exceptions.h>
 
@@ -45,17 +46,13 @@ public:
 
 private:
   void
-  parseHeader();
-  void
-  appendColumn(const std::string& name);
-  void
-  startColumns(std::string_view header, std::size_t line);
-  void
-  startUnnamedColumns(std::size_t count);
+  startColumns(const TextHead& head);
   std::vector<std::string>
   listNames() const;
   bool
   namesCoordinates() const;
+  bool
+  isXyz() const;
   std::array<std::size_t, 3>
   findCoordinates();
   void
@@ -65,7 +62,9 @@ private:
   void
   checkGuess() const;
   void
-  scanNames();
+  addFlags(bool keep);
+  void
+  lookAgain();
   void
   checkColumn(const TextColumn& column, bool coordinate) const;
 
@@ -73,6 +72,7 @@ private:
   const LoadOptions options_;
   std::unique_ptr<FileCursor> cursor_;
   TextRows rows_;
+  TextRows::Shape shape_;
   FileCursor::Place start_; ///< of the first row
   std::vector<TextColumn> columns_;
   bool has_header_ = true;
@@ -95,9 +95,12 @@ TextTable::TextTable(const std::string& path, const LoadOptions& options)
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   if (cursor_->getFile().head(byte_order_mark.size()) == byte_order_mark)
     cursor_->skip(byte_order_mark.size());
-  parseHeader();
-  rows_.setShape({rows_.getShape().separator, columns_.size()});
-  has_coordinates_ = options.needs_coordinates || namesCoordinates();
+  const TextHead head = readTextHead(path_, *cursor_);
+  notes_ = head.notes;
+  start_ = head.start;
+  startColumns(head);
+  shape_ = head.shape;
+  has_coordinates_ = options.needs_coordinates || namesCoordinates() || isXyz();
   if (!has_coordinates_)
     for (const char* const name : {"x", "y", "z"}) {
       columns_.emplace_back();
@@ -107,26 +110,16 @@ TextTable::TextTable(const std::string& path, const LoadOptions& options)
 }
 
 void
-TextTable::appendColumn(const std::string& name)
+TextTable::startColumns(const TextHead& head)
 {
-  TextColumn column;
-  column.name = name;
-  column.cell = columns_.size();
-  columns_.push_back(std::move(column));
-}
-
-void
-TextTable::startColumns(std::string_view header, std::size_t line)
-{
-  Cells cells;
-  rows_.split(header, cells);
   std::vector<std::string> names;
-  for (const std::string_view cell : cells) {
-    std::string name = withoutDoubledQuotes(trimmed(cell));
-    if (name.empty())
-      name = "column_" + std::to_string(names.size());
-    names.push_back(name);
+  for (std::size_t i = 0; i < head.shape.cells; ++i) {
+    const bool is_named = i < head.names.size() && !head.names[i].empty();
+    names.push_back(is_named ? head.names[i] : "column_" + std::to_string(i));
   }
+  has_header_ = !head.names.empty();
+  if (!has_header_)
+    notes_.push_back({"no_header_line", {{"last", names.size() - 1}}});
   const std::vector<std::string> originals = names;
   makeUnique(names);
   constexpr std::size_t most_notes = 10;
@@ -135,79 +128,17 @@ TextTable::startColumns(std::string_view header, std::size_t line)
     if (names[i] != originals[i])
       if (++renamed <= most_notes)
         notes_.push_back({"repeated_column",
-                          {{"line", line},
+                          {{"line", head.line},
                            {"name", shortenText(originals[i])},
                            {"column", shortenText(names[i])}}});
-    appendColumn(names[i]);
+    TextColumn column;
+    column.name = names[i];
+    column.cell = i;
+    column.decimal = head.decimal;
+    columns_.push_back(std::move(column));
   }
   if (renamed > most_notes)
     notes_.push_back({"more_repeated_columns", {{"columns", renamed - most_notes}}});
-}
-
-void
-TextTable::startUnnamedColumns(std::size_t count)
-{
-  has_header_ = false;
-  for (std::size_t i = 0; i < count; ++i)
-    appendColumn("column_" + std::to_string(i));
-  notes_.push_back({"no_header_line", {{"last", count - 1}}});
-}
-
-/** The first of these that stands outside of quotes. */
-char
-separatorIn(std::string_view line)
-{
-  for (const char candidate : {',', ';', '\t'}) {
-    bool quoted = false;
-    for (const char c : line) {
-      quoted ^= c == '"';
-      if (c == candidate && !quoted)
-        return candidate;
-    }
-  }
-  return TextRows::blanks;
-}
-
-std::size_t
-countNumbers(const Cells& cells)
-{
-  double ignored = 0.0;
-  return static_cast<std::size_t>(
-      std::count_if(cells.begin(), cells.end(), [&](std::string_view cell) {
-        return isMissing(cell) || parseNumber(cell, ignored);
-      }));
-}
-
-/** Finds the separator and the names: in the first line, else in a comment above
- * numbers ("# x y z density"). */
-void
-TextTable::parseHeader()
-{
-  std::string_view line;
-  std::string comment;
-  const auto is_comment = [](std::string_view text) {
-    return text.substr(0, 1) == "#" || text.substr(0, 2) == "//";
-  };
-  do {
-    start_ = cursor_->tell();
-    if (!cursor_->nextLine(line))
-      throwUnreadable(path_, "it has no header line");
-    if (is_comment(line))
-      comment = line.substr(line[0] == '#' ? 1 : 2);
-  } while (trimmed(line).empty() || is_comment(line));
-  rows_.setShape({separatorIn(line), 0});
-  Cells cells, names;
-  rows_.split(line, cells);
-  if (countNumbers(cells) != cells.size()) {
-    startColumns(line, cursor_->tell().line);
-    start_ = cursor_->tell();
-    return;
-  }
-  rows_.split(comment, names);
-  if (!comment.empty() && names.size() == cells.size() && countNumbers(names) == 0)
-    startColumns(comment, start_.line);
-  else
-    startUnnamedColumns(cells.size());
 }
 
 std::vector<std::string>
@@ -275,6 +206,13 @@ TextTable::namesCoordinates() const
          });
 }
 
+/** A file of numbers whose ending says what the first three columns are. */
+bool
+TextTable::isXyz() const
+{
+  return !has_header_ && columns_.size() >= 3 && getEnding(path_) == ".xyz";
+}
+
 /** Whole numbers are labels or indices as often as coordinates. */
 void
 TextTable::checkGuess() const
@@ -332,6 +270,7 @@ void
 TextTable::scan(bool keep)
 {
   cursor_->seek(start_);
+  rows_.setShape(shape_);
   Report report;
   report.progress = options_.progress;
   StepTimer step(report, "read", cursor_->left());
@@ -362,21 +301,57 @@ TextTable::scan(bool keep)
   }
 }
 
-/** Which names columns hold is known before their values: these are put in after a
- * second look at the rows. */
+/** Columns with numbers below limits are joined by columns of 1 where they are, and 0.
+ */
 void
-TextTable::scanNames()
+TextTable::addFlags(bool keep)
+{
+  std::vector<TextColumn> flags;
+  for (const TextColumn& column : columns_)
+    if (column.below > 0 && !column.holdsNames()) {
+      TextColumn& flag = flags.emplace_back();
+      flag.name = column.name + "_below";
+      flag.cell = column.cell;
+      flag.decimal = column.decimal;
+      flag.is_flag = true;
+      flag.numbers = count_;
+      flag.low = 0.0;
+      flag.high = 1.0;
+      notes_.push_back({"below_detection",
+                        {{"column", shortenText(column.name)},
+                         {"cells", column.below},
+                         {"flag", shortenText(flag.name)}}});
+      if (keep)
+        flag.values.assign(count_, 0.0);
+    }
+  for (TextColumn& flag : flags)
+    columns_.push_back(std::move(flag));
+}
+
+/** Which names columns hold, and where numbers are below limits, is known before their
+ * values: these are put in after a second look at the rows. */
+void
+TextTable::lookAgain()
 {
   using Numbers = std::map<std::string, double>;
   std::vector<std::pair<TextColumn*, Numbers>> found; // in the order of the rows
-  for (auto& column : columns_)
+  std::vector<TextColumn*> flags;
+  for (auto& column : columns_) {
     if (column.holdsNames())
       found.emplace_back(&column, Numbers());
-  if (found.empty())
+    if (column.is_flag && !column.values.empty())
+      flags.push_back(&column);
+  }
+  if (found.empty() && flags.empty())
     return;
   cursor_->seek(start_);
+  rows_.setShape(shape_);
   Cells cells;
-  for (std::size_t row = 0; rows_.next(cells); ++row)
+  double ignored = 0.0;
+  for (std::size_t row = 0; rows_.next(cells); ++row) {
+    for (TextColumn* const flag : flags)
+      flag->values[row] =
+          isBelow(cells[*flag->cell], flag->decimal, ignored) ? 1.0 : 0.0;
     for (auto& [column, numbers] : found) {
       const std::string_view cell = cells[*column->cell];
       const std::string name = withoutDoubledQuotes(cell);
@@ -386,6 +361,7 @@ TextTable::scanNames()
       if (!column->values.empty())
         column->values[row] = known == numbers.end() ? no_name : known->second;
     }
+  }
   for (auto& [column, numbers] : found) {
     if (numbers.size() > most_names)
       continue;
@@ -405,6 +381,9 @@ void
 TextTable::checkColumn(const TextColumn& column, bool coordinate) const
 {
   const bool has_values = column.labels.empty() && column.isMostlyNumbers();
+  if (coordinate && column.below > 0)
+    throw IOError("coordinate_below_limit",
+                  {{"path", printable(path_)}, {"column", shortenText(column.name)}});
   if (column.texts > 0 && (coordinate || has_values))
     throwUnreadable(path_,
                     column.first_text_line,
@@ -428,7 +407,8 @@ RecordInfo
 TextTable::describe()
 {
   checkGuess();
-  scanNames();
+  addFlags(!columns_.empty() && !columns_.front().values.empty());
+  lookAgain();
   for (const TextColumn& column : columns_)
     checkColumn(column, &column - columns_.data() < 3);
   RecordInfo info;
@@ -492,7 +472,8 @@ public:
   {
     rows_.setShape(shape);
     for (const auto& column : columns)
-      columns_.push_back({column.cell, column.factor, column.labels});
+      columns_.push_back(
+          {column.cell, column.factor, column.labels, column.decimal, column.is_flag});
   }
 
 private:
@@ -519,6 +500,8 @@ private:
     std::optional<std::size_t> cell;
     double factor;
     std::vector<std::string> labels;
+    char decimal;
+    bool is_flag;
   };
 
   double
@@ -527,7 +510,10 @@ private:
     if (!column.cell)
       return 0.0;
     const std::string_view cell = cells_[*column.cell];
-    return column.labels.empty() ? column.factor * numberIn(cell)
+    double limit = 0.0;
+    if (column.is_flag)
+      return isBelow(cell, column.decimal, limit) ? 1.0 : 0.0;
+    return column.labels.empty() ? column.factor * numberIn(cell, column.decimal)
                                  : findLabel(cell, column.labels);
   }
 
@@ -547,7 +533,7 @@ TextTable::stream(const RecordInfo& info)
 {
   cursor_->seek(start_);
   return std::make_unique<TextSource>(
-      path_, std::move(cursor_), rows_.getShape(), info, columns_);
+      path_, std::move(cursor_), shape_, info, columns_);
 }
 
 } // namespace

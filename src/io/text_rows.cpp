@@ -64,9 +64,11 @@ TextRows::split(std::string_view line, Cells& cells) const
 bool
 TextRows::nextLine(std::string_view& line)
 {
-  while (cursor_.nextLine(line))
-    if (!trimmed(line).empty() && line[0] != '#')
+  while (left_ > 0 && cursor_.nextLine(line))
+    if (!trimmed(line).empty() && shape_.comments.find(line[0]) == std::string::npos) {
+      --left_;
       return true;
+    }
   return false;
 }
 

@@ -4,6 +4,8 @@
 
 #include "io/file_cursor.h"
 
+#include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,7 +22,9 @@ public:
 
   struct Shape {
     char separator = blanks;
-    std::size_t cells = 0; ///< of each row
+    std::size_t cells = 0;      ///< of each row
+    std::string comments = "#"; ///< lines that begin with one of these are none
+    std::uint64_t rows = std::numeric_limits<std::uint64_t>::max(); ///< at most
   };
 
   TextRows(const std::string& path, FileCursor& cursor)
@@ -34,6 +38,7 @@ public:
   setShape(const Shape& shape)
   {
     shape_ = shape;
+    left_ = shape.rows;
   }
 
   const Shape&
@@ -65,6 +70,7 @@ private:
   const std::string& path_;
   FileCursor& cursor_;
   Shape shape_;
+  std::uint64_t left_ = std::numeric_limits<std::uint64_t>::max(); ///< rows
 };
 
 } // namespace io

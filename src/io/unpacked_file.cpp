@@ -22,6 +22,9 @@
 #ifdef PCL_UVOL_HAS_ZSTD
 #include <zstd.h>
 #endif
+#ifdef PCL_UVOL_HAS_XZ
+#include <lzma.h>
+#endif
 
 namespace pcl_uvol {
 namespace io {
@@ -174,6 +177,33 @@ unzstdAll(Pipe& pipe)
 }
 #endif
 
+#ifdef PCL_UVOL_HAS_XZ
+void
+unxzAll(Pipe& pipe)
+{
+  lzma_stream stream = LZMA_STREAM_INIT;
+  const std::unique_ptr<lzma_stream, void (*)(lzma_stream*)> end(&stream, lzma_end);
+  if (lzma_stream_decoder(&stream, UINT64_MAX, LZMA_CONCATENATED) != LZMA_OK)
+    throw std::bad_alloc();
+  lzma_ret state = LZMA_OK;
+  while (state != LZMA_STREAM_END) {
+    const std::size_t got = pipe.read(pipe.in.data(), pipe.in.size());
+    stream.next_in = reinterpret_cast<const std::uint8_t*>(pipe.in.data());
+    stream.avail_in = got;
+    do {
+      stream.next_out = reinterpret_cast<std::uint8_t*>(pipe.out.data());
+      stream.avail_out = pipe.out.size();
+      state = lzma_code(&stream, got > 0 ? LZMA_RUN : LZMA_FINISH);
+      if (state == LZMA_MEM_ERROR)
+        throw std::bad_alloc();
+      if (state != LZMA_OK && state != LZMA_STREAM_END)
+        throwDamaged(pipe.path);
+      writeAll(pipe.path, pipe.to, pipe.out.data(), pipe.out.size() - stream.avail_out);
+    } while (state == LZMA_OK && (stream.avail_in > 0 || stream.avail_out == 0));
+  }
+}
+#endif
+
 std::string
 getPacking(const std::string& path)
 {
@@ -186,7 +216,7 @@ bool
 isPacked(const std::string& path)
 {
   const std::string packing = getPacking(path);
-  return packing == ".gz" || packing == ".bz2" || packing == ".zst";
+  return packing == ".gz" || packing == ".bz2" || packing == ".zst" || packing == ".xz";
 }
 
 bool
@@ -251,6 +281,10 @@ unpackFile(const std::string& path, int packed)
 #ifdef PCL_UVOL_HAS_ZSTD
   else if (packing == ".zst")
     unzstdAll(pipe);
+#endif
+#ifdef PCL_UVOL_HAS_XZ
+  else if (packing == ".xz")
+    unxzAll(pipe);
 #endif
   else
     throwUnreadable(path,

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <zlib.h>
@@ -363,10 +364,42 @@ public:
                 *file_space,
                 H5P_DEFAULT,
                 tuples) < 0)
-      throwUnreadable(path_,
-                      "the numbers of " + quoteText(name_) +
-                          " are truncated, damaged or packed by a filter that is not "
-                          "installed");
+      throwUnread();
+  }
+
+  /** Tells of the filter that is missing, if there is one. */
+  [[noreturn]] void
+  throwUnread() const
+  {
+    static const std::map<H5Z_filter_t, const char*> names{{32000, "lzf"},
+                                                           {32001, "blosc"},
+                                                           {32004, "lz4"},
+                                                           {32008, "bitshuffle"},
+                                                           {32015, "zstd"},
+                                                           {32026, "blosc2"}};
+    const Handle properties = own(H5Dget_create_plist(*dataset_));
+    for (int i = 0; i < H5Pget_nfilters(*properties); ++i) {
+      unsigned flags = 0;
+      std::size_t values = 0;
+      const H5Z_filter_t id = H5Pget_filter2(*properties,
+                                             static_cast<unsigned>(i),
+                                             &flags,
+                                             &values,
+                                             nullptr,
+                                             0,
+                                             nullptr,
+                                             nullptr);
+      if (H5Zfilter_avail(id) > 0)
+        continue;
+      const auto known = names.find(id);
+      throw IOError("filter_not_installed",
+                    {{"path", printable(path_)},
+                     {"name", shortenText(name_)},
+                     {"filter", known != names.end() ? known->second : "number"},
+                     {"id", id}});
+    }
+    throwUnreadable(path_,
+                    "the numbers of " + quoteText(name_) + " are truncated or damaged");
   }
 
 private:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io_vtk/vtk_data_reader.h"
 
+#include "common/numbers.h"
 #include "common/printable.h"
 #include "io/files.h"
 #include "io/folder.h"
@@ -139,6 +140,21 @@ struct ListedFile {
   std::string path, time;
 };
 
+/** The file of a name in a list. A list that came from another machine may have paths
+ * of that: then the file is beside the list. */
+std::string
+findListed(const std::filesystem::path& folder, const std::string& name)
+{
+  const std::filesystem::path listed = folder / name,
+                              beside =
+                                  folder / name.substr(name.find_last_of("/\\") + 1);
+  std::error_code error;
+  return !std::filesystem::exists(listed, error) &&
+                 std::filesystem::exists(beside, error)
+             ? beside.string()
+             : listed.string();
+}
+
 std::vector<ListedFile>
 listFiles(const std::string& path)
 {
@@ -152,13 +168,22 @@ listFiles(const std::string& path)
     const std::string* const name = tag.find(tag.name == "Piece" ? "Source" : "file");
     const std::string* const time = tag.find("timestep");
     if (name && !name->empty())
-      files.push_back({(folder / *name).string(), time ? *time : ""});
+      files.push_back({findListed(folder, *name), time ? *time : ""});
   }
   if (!scanner.getOpen().empty())
     throwUnreadable(path, "it is truncated or no list of files");
   if (files.empty())
     throwUnreadable(path, "it lists no files");
   return files;
+}
+
+/** By their times, if both are numbers. */
+bool
+isEarlier(const ListedFile& a, const ListedFile& b)
+{
+  double time_of_a = 0.0, time_of_b = 0.0;
+  return parseNumber(a.time, time_of_a) && parseNumber(b.time, time_of_b) &&
+         time_of_a < time_of_b;
 }
 
 /** Bytes of the files in a folder and in those below. */
@@ -256,7 +281,8 @@ visitFiles(const std::string& path,
   ++lists.open;
   ++lists.all;
   std::vector<ListedFile> files = listFiles(path);
-  const std::string first = files.front().time;
+  const std::string first =
+      std::min_element(files.begin(), files.end(), isEarlier)->time;
   const std::size_t all = files.size();
   files.erase(std::remove_if(files.begin(),
                              files.end(),

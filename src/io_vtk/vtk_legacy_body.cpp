@@ -7,6 +7,11 @@
 #include "io/formats.h"
 #include "io/little_endian.h"
 
+#include <pcl/PCLPointField.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
 #include <limits>
 
 namespace pcl_uvol {
@@ -64,6 +69,36 @@ LegacyBody::skipNumbers(const VtkType& type, std::uint64_t count)
       fail("it is truncated: numbers are missing at its end");
 }
 
+namespace {
+
+/** Whether floating-point numbers are of sizes that data have: of swapped bytes most
+ * are not. Looks at a thousand of them. */
+template <typename T>
+bool
+areUsual(const std::uint8_t* bytes, std::uint64_t numbers)
+{
+  constexpr double least = 1e-20, largest = 1e20;
+  const std::uint64_t step = std::max<std::uint64_t>(numbers / 1000, 1);
+  std::uint64_t usual = 0, seen = 0;
+  for (std::uint64_t i = 0; i < numbers; i += step, ++seen) {
+    T number;
+    std::memcpy(&number, bytes + i * sizeof(T), sizeof(T));
+    const auto size = static_cast<double>(std::abs(number));
+    usual += size == 0.0 || (size > least && size < largest);
+  }
+  return 4 * usual > 3 * seen;
+}
+
+bool
+arePlain(std::uint8_t datatype, const std::uint8_t* bytes, std::uint64_t numbers)
+{
+  if (datatype == pcl::PCLPointField::FLOAT32)
+    return areUsual<float>(bytes, numbers);
+  return datatype == pcl::PCLPointField::FLOAT64 && areUsual<double>(bytes, numbers);
+}
+
+} // namespace
+
 vtkSmartPointer<vtkDataArray>
 LegacyBody::readArray(std::string_view type_name,
                       const std::string& name,
@@ -105,7 +140,11 @@ LegacyBody::readArray(std::string_view type_name,
       fail("it is truncated: numbers are missing at its end");
     cursor_.getFile().read(cursor_.tell().offset, bytes, numbers * size);
     cursor_.skip(numbers * size);
+    const bool are_plain = name == "Points" && arePlain(type->datatype, bytes, numbers);
     swapBytes(bytes, size, numbers); // the files are big-endian
+    if (are_plain && !arePlain(type->datatype, bytes, numbers))
+      throw IOError("swapped_bytes",
+                    {{"path", printable(path_)}, {"name", shortenText(name)}});
   }
   if (type_name == "vtkidtype") { // written as int
     vtkSmartPointer<vtkDataArray> ids =

@@ -236,6 +236,70 @@ las(int minor, int format, int point_bytes)
   return bytes;
 }
 
+/** The variable length record that describes extra bytes (LAS 1.4, 2.7). */
+std::string
+describeExtras(const std::vector<std::tuple<int, int, std::string>>& extras)
+{
+  const auto put = [](std::string& bytes, std::size_t offset, auto value) {
+    bytes.replace(
+        offset, sizeof(value), reinterpret_cast<const char*>(&value), sizeof(value));
+  };
+  std::string record(54, '\0');
+  record.replace(2, 9, "LASF_Spec");
+  put(record, 18, std::uint16_t(4));
+  put(record, 20, static_cast<std::uint16_t>(192 * extras.size()));
+  for (const auto& [type, options, name] : extras) {
+    std::string extra(192, '\0');
+    extra[2] = static_cast<char>(type);
+    extra[3] = static_cast<char>(options);
+    extra.replace(4, name.size(), name);
+    put(extra, 40, std::uint64_t(65535)); // no data
+    put(extra, 112, 0.5);                 // scale
+    put(extra, 136, 100.0);               // offset
+    record += extra;
+  }
+  return record;
+}
+
+TEST_F(ArrayFiles, ExtraBytesOfLaserScansAreFields)
+{
+  // Two bytes without a type, a number with scale and offset, a plain one, and x again.
+  const std::string extras = describeExtras(
+      {{0, 2, "pad"}, {3, 1 + 8 + 16, "height"}, {9, 0, "ratio"}, {2, 0, "x"}});
+  std::string bytes = las(2, 0, 20 + 2 + 2 + 4 + 1);
+  const std::size_t head = 227;
+  for (int i = 0; i < 3; ++i) {
+    const std::size_t at = head + static_cast<std::size_t>(29 * i + 22);
+    const std::uint16_t height = i == 2 ? 65535 : static_cast<std::uint16_t>(10 * i);
+    const float ratio = 0.25f * static_cast<float>(i);
+    bytes.replace(at, 2, reinterpret_cast<const char*>(&height), 2);
+    bytes.replace(at + 2, 4, reinterpret_cast<const char*>(&ratio), 4);
+    bytes[at + 6] = static_cast<char>(-i);
+  }
+  bytes.insert(head, extras);
+  const auto put = [&](std::size_t offset, auto value) {
+    bytes.replace(
+        offset, sizeof(value), reinterpret_cast<const char*>(&value), sizeof(value));
+  };
+  put(94, static_cast<std::uint16_t>(head));
+  put(96, static_cast<std::uint32_t>(head + extras.size()));
+  put(100, std::uint32_t(1));
+  const Dataset scan = loadDataset(save("a.las", bytes));
+  EXPECT_TRUE(scan.notes.empty());
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(0.25 * double(i), valueAt(scan, "ratio", i));
+    EXPECT_EQ(-double(i), valueAt(scan, "x_2", i));
+    if (i < 2) {
+      EXPECT_EQ(100.0 + 5.0 * double(i), valueAt(scan, "height", i));
+    }
+  }
+  EXPECT_TRUE(std::isnan(valueAt(scan, "height", 2)));
+  // A description that does not fit the points describes nothing.
+  put(105, std::uint16_t(24));
+  EXPECT_EQ(std::vector<std::string>{"extra_bytes"},
+            listCodes(loadDataset(save("b.las", bytes)).notes));
+}
+
 TEST_F(ArrayFiles, LaserScansKeepTheirAttributes)
 {
   for (const auto& [minor, format, size] :

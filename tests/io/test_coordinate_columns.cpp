@@ -155,10 +155,6 @@ TEST(CoordinateColumns, OfUnknownUnitsBringANote)
   EXPECT_EQ(
       Message("common_ending", {{"x", "x_kpch"}, {"y", "y_kpch"}, {"z", "z_kpch"}}),
       dataset.notes[0]);
-  EXPECT_EQ("The columns x_kpch, y_kpch and z_kpch are taken as the coordinates, "
-            "because their names share an ending. Try: -xyz if other columns are the "
-            "coordinates.",
-            dataset.notes[0].text(ParameterNames::Options));
   LoadOptions options;
   options.may_mix_units = true;
   EXPECT_EQ(1u, load("x_kpch,y_kpch,z_kpch,rho", options).notes.size());

@@ -86,6 +86,20 @@ TEST_F(FileLists, OfSeveralTimesTheFirstIsRead)
   EXPECT_EQ("0.5", wordOf(first.notes[0], "time"));
 }
 
+/** Paths are those of the machine that wrote the list, and times have any order. */
+TEST_F(FileLists, FindFilesBesideThem)
+{
+  const auto entry = [](const std::string& time, const std::string& name) {
+    return "<DataSet timestep=\"" + time + "\" file=\"" + name + "\"/>";
+  };
+  std::filesystem::copy_file(part(0), folder_ / "0.vtp");
+  std::filesystem::copy_file(part(1), folder_ / "1.vtp");
+  const std::string path = save("a.pvd",
+                                "<Collection>" + entry("10", "/scratch/run/1.vtp") +
+                                    entry("2", "C:\\run\\0.vtp") + "</Collection>");
+  EXPECT_EQ(parts_[0].cloud.width, loadDataset(path).cloud.width);
+}
+
 TEST_F(FileLists, ReadAFileOnce)
 {
   std::string content = "<DataSet file=\"parts/1.vtp\"/>";

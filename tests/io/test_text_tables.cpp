@@ -69,6 +69,111 @@ TEST(TextTables, Separators)
   }
 }
 
+/** Values of the first row: x, y, z and the first field behind. */
+std::vector<double>
+firstRowOf(const Dataset& dataset)
+{
+  std::vector<double> row;
+  for (const auto& field : dataset.cloud.fields)
+    row.push_back(
+        ScalarField(dataset.cloud.fields, field.name).read(dataset.cloud.data.data()));
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    row[axis] += dataset.origin[axis];
+  return row;
+}
+
+/** A table as somebody writes it, and what is said of it. */
+struct Wild {
+  const char* text;
+  std::vector<std::string> notes;
+  const char* ending = ".csv";
+};
+
+TEST(TextTables, HeadsAsPeopleWriteThem)
+{
+  const std::vector<Wild> tables{
+      {"sep=;\nx;y;z;f\n0.5;2;3;4\n", {}},
+      {"sep=\t\nx\ty\tz\tf\n0.5\t2\t3\t4\n", {}},
+      {"% Device,AB12\n% \nx,y,z,f\n0.5,2,3,4\n% end\n", {}},
+      {"% x y z f\n0.5 2 3 4\n", {}},
+      {"/ survey\n/ x y z f\n0.5 2 3 4\n", {}},
+      {"* Sea-Bird\n# nquan = 4\n# name 0 = x: Easting [m]\n# name 1 = y: N\n# name 2 "
+       "= "
+       "z: Depth\n# name 3 = f: Value\n# span 0 = 0, 1\n*END*\n 0.5 2 3 4\n",
+       {}},
+      {"x,y,z,f\nm,m,m,degC\n0.5,2,3,4\n", {"skipped_units"}},
+      {"x,y,z,f\nm,,m,\n0.5,2,3,4\n", {"skipped_units"}},
+      {"Survey of 2019\nx,y,z,f\n0.5,2,3,4\n", {"skipped_titles"}},
+      {"[Name]\nCube\n\n[Data]\nx, y, z, f\n0.5, 2, 3, 4\n", {"skipped_titles"}},
+      {"A title of several words\nx y z f\n0.5 2 3 4\n", {"skipped_titles"}},
+      {"Title\nx,y,z,f\nm,m,m,K\n0.5,2,3,4\n", {"skipped_titles", "skipped_units"}},
+      {"//x;y;z;f\n2\n0.5;2;3;4\n1;2;3;4\n", {"skipped_count"}},
+      {"#x,y,z,f,hole\n0.5,2,3,4,A-1\n", {}},
+      {"x;y;z;f\n0,5;2;3;4\n", {"decimal_commas"}},
+      {"x\ty\tz\tf\n0,5\t2\t3\t4,0\n", {"decimal_commas"}},
+      {"TITLE=\"t\"\nVARIABLES = \"x\"\n\"y\"\n\"z\", \"f\"\nZONE N=1, E=1, F=FEPOINT\n"
+       "0.5 2 3 4\n1 1 1\n",
+       {"first_zone"},
+       ".dat"},
+      {"VARIABLES = \"x\", \"y\", \"z\", \"f\"\nZONE I=2, J=1, DATAPACKING=POINT\n0.5 "
+       "2 3 "
+       "4\n5 6 7 8\nZONE I=1\n9 9 9 9\n",
+       {"first_zone"},
+       ".dat"}};
+  for (const Wild& table : tables) {
+    SCOPED_TRACE(table.text);
+    const Dataset read = load(table.text, {}, std::string("a") + table.ending);
+    ASSERT_LT(0u, read.cloud.width);
+    const std::vector<double> row = firstRowOf(read);
+    ASSERT_GE(row.size(), 4u);
+    EXPECT_EQ((std::vector<double>{0.5, 2.0, 3.0, 4.0}),
+              std::vector<double>(row.begin(), row.begin() + 4));
+    EXPECT_EQ("f", read.cloud.fields[3].name);
+    EXPECT_EQ(table.notes, listCodes(read.notes));
+  }
+}
+
+/** What has no names: numbers are not read for what they are not. */
+TEST(TextTables, NumbersAsPeopleWriteThem)
+{
+  const auto row = firstRowOf(load("6.25D-01 2.5d+1 -1.0E2 4\n1 2 3 4\n", {}, "a.dat"));
+  EXPECT_EQ((std::vector<double>{0.625, 25.0, -100.0, 4.0}), row);
+  const auto comma = firstRowOf(load("0,5;2,25;3;4\n1;2;3;4\n"));
+  EXPECT_EQ((std::vector<double>{0.5, 2.25, 3.0, 4.0}), comma);
+  // Thousands and dates are no numbers.
+  EXPECT_NE("", errorOf("x;y;z;f\n0,5;2;1.234,5;4\n"));
+  EXPECT_NE("", errorOf("x,y,z,f\n0.5,2,\"1,234.5\",4\n"));
+  // The ending says what they are.
+  const Dataset places = load("1.5,2.5,3.5,9\n", {}, "a.xyz");
+  EXPECT_EQ((std::vector<double>{1.5, 2.5, 3.5, 9.0}), firstRowOf(places));
+}
+
+TEST(TextTables, HeadersThatDoNotFitAreRefused)
+{
+  for (const char* const text : {"x,y,z\n1,2,3,4\n1,2,3,4\n",
+                                 "x,y,z,f,g\n1,2,3,4\n",
+                                 "x,y,z,hole\n1,2,3,A,\n1,2,3,B,\n"})
+    EXPECT_NE(std::string::npos, errorOf(text).find("cells for the")) << text;
+}
+
+TEST(TextTables, ValuesBelowDetection)
+{
+  std::string text = "x,y,z,cu\n";
+  for (int i = 0; i < 6; ++i)
+    text += std::to_string(i) + ",0.5,1," + (i % 2 ? "<0.25" : "1.5") + '\n';
+  const Dataset read = load(text);
+  EXPECT_EQ(xyz + ", cu (float32), cu_below (int32)",
+            describeFields(read.cloud.fields));
+  EXPECT_EQ(std::vector<std::string>{"below_detection"}, listCodes(read.notes));
+  const ScalarField value(read.cloud.fields, "cu"), flag(read.cloud.fields, "cu_below");
+  const CloudView view = viewOf(read.cloud);
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_EQ(i % 2 ? 0.25 : 1.5, value.read(view.point(i)));
+    EXPECT_EQ(double(i % 2), flag.read(view.point(i)));
+  }
+  EXPECT_EQ("coordinate_below_limit", refusalOf("x,y,z,f\n<0.5,2,3,4\n").code);
+}
+
 TEST(TextTables, TypesOfColumns)
 {
   EXPECT_EQ(fieldsOf("x,y,z,i,f,d,big,gap,none,name\n"

@@ -90,4 +90,22 @@ TEST_F(WildFiles, LargestFloatsAreNotPlaces)
   EXPECT_EQ(30u, missing);
 }
 
+/** As PDAL and others write point clouds. */
+TEST(PcdFiles, OfOtherProgramsAreRead)
+{
+  const TemporaryFolder folder;
+  const std::string head = "VERSION .7\nFIELDS X Y Z f\nSIZE 4 4 4 4\nTYPE f F f F\n"
+                           "COUNT 1 1 1 1\nWIDTH 2\nHEIGHT 1\nPOINTS 2\nDATA ascii\n";
+  for (const char* const rows : {"1,2,3,4\n5,6,7,8\n", "1, 2, 3, 4\n5,6, 7,8\n"}) {
+    writeFile(folder / "a.pcd", head + rows);
+    const Dataset read = loadDataset(folder / "a.pcd");
+    EXPECT_EQ("x (float32), y (float32), z (float32), f (float32)",
+              describeFields(read.cloud.fields));
+    EXPECT_EQ(5.0, valueAt(read, "x", 1));
+    EXPECT_EQ(8.0, valueAt(read, "f", 1));
+  }
+  writeFile(folder / "a.pcd", head + "1,2,3\n5,6,7,8\n");
+  EXPECT_THROW(loadDataset(folder / "a.pcd"), IOError);
+}
+
 } // namespace test_wild_files
