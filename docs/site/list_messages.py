@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes the tables of messages in docs/reference/errors.md from src/common/warning_texts.cpp and error_texts.cpp. What their
-last column says, what to do, is kept. Codes that the sources use and no table has, and codes that nothing uses, are named.
+"""Writes the tables of messages in docs/reference/errors.md from src/common/warning_texts.cpp and error_texts.cpp.
+The last column (what to do) is kept. Lists codes that the sources use but no table has, and codes that no source uses.
 
-usage: list_messages.py REPOSITORY [--check]     --check: says what would change, with exit code 1, and writes nothing
+usage: list_messages.py REPOSITORY [--check]     --check: list what would change, with exit code 1; write nothing
 """
 import pathlib
 import re
@@ -30,7 +30,7 @@ def read_sources(root):
 
 
 def inner_end(text, start):
-    """The place after the brace that closes the one before start."""
+    """The index of the brace that closes the one before start."""
     depth = 1
     for i in range(start, len(text)):
         depth += {"{": 1, "}": -1}.get(text[i], 0)
@@ -89,18 +89,18 @@ def main():
     tables, sources = {title: read_rows(root / path) for title, path in TABLES.items()}, read_sources(root)
     codes = [code for rows in tables.values() for code in rows]
     wrong = [f"No table has the code '{code}'." for code in sorted(set(USED.findall(sources)) - {*codes, TEXT})]
-    wrong += [f"Nothing tells '{code}'." for code in codes if f'"{code}"' not in sources]
+    wrong += [f"No source uses the code '{code}'." for code in codes if f'"{code}"' not in sources]
     wrong += [f"The code '{code}' has two rows." for code in set(codes) if codes.count(code) > 1]
     page = (root / PAGE).read_text()
     if BEGIN not in page or END not in page:
-        sys.exit(f"{PAGE} has no place for the table: {BEGIN}{END}")
+        sys.exit(f"{PAGE} lacks the markers of the table: {BEGIN}{END}")
     before, rest = page.split(BEGIN)
     old, after = rest.split(END)
     advice = dict(re.findall(r"^\| `([a-z0-9_]+)` \|.*\| (.*?) ?\|$", old, re.MULTILINE))
     made = before + BEGIN + "\n".join(f"### {title}\n\n" + make_table(rows, advice) for title, rows in tables.items()) + END + after
     if made != page:
         if "--check" in sys.argv:
-            wrong.append(f"{PAGE} is older than the tables: run docs/site/list_messages.py.")
+            wrong.append(f"{PAGE} is out of date. Try: python3 docs/site/list_messages.py .")
         else:
             (root / PAGE).write_text(made)
     sys.exit("\n".join(wrong) or 0)

@@ -9,485 +9,459 @@ namespace {
 
 const MessageText warning_rows[] = {
     // common
-    {"repeated_field", "A further field '{field}' is called '{name}'."},
+    {"repeated_field",
+     "The field name '{field}' is repeated. This field is renamed to '{name}'."},
     {"more_repeated_fields",
-     "{fields} more {fields|field is|fields are} told apart in the same way."},
+     "{fields} more repeated {fields|field is|fields are} renamed in the same way."},
     {"points_beyond_float",
-     "{points} {points|point has|points have} a coordinate of 3.4e38 or more, which "
-     "float does not hold. {points|It counts as a point|They count as points} "
-     "without a position."},
+     "{points} {points|point has|points have} a coordinate of 3.4e38 or more, too "
+     "large for float. {points|It counts|They count} as missing."},
     {"rounded_coordinates",
-     "Coordinates are rounded to float by up to {rounding:2}, {spacings:2} times "
-     "the distance between neighbours (about {spacing:2}): neighbours may fall "
-     "together. Parts of the cloud that lie far apart keep their digits in files of "
-     "their own."},
+     "Float rounding moves coordinates by up to {rounding:2}, {spacings:2} times the "
+     "distance between neighbours (about {spacing:2}). Neighbours may coincide. Try: "
+     "separate files for distant parts."},
     {"rounded_far_points",
-     "Coordinates of single points far from the others are rounded to float by up "
-     "to {rounding:2}, {spacings:2} times the distance between neighbours (about "
-     "{spacing:2})."},
+     "Float rounding moves single distant points by up to {rounding:2}, {spacings:2} "
+     "times the distance between neighbours (about {spacing:2})."},
     {"merged_positions",
-     "{positions} {positions|position falls|positions fall} together with others "
-     "once coordinates are rounded to float, though up to {distance:2} apart: such "
-     "points count as duplicates. Parts of the cloud in files of their own keep "
-     "more digits."},
+     "{positions} {positions|position coincides|positions coincide} with others after "
+     "rounding to float (up to {distance:2} apart). They count as duplicates. Try: "
+     "separate files for distant parts."},
     {"conflicting_samples",
-     "At {percent} % of the places of samples several lie whose values differ, and "
-     "their median is taken: {-where} chooses among them, as in {-where "
-     "\"experiment=1\"}."},
+     "{percent} % of the sample positions have several different values. Their median "
+     "is used. Try: {-where} to select one, for example {-where \"experiment=1\"}."},
 
     // neighbors
     {"strays",
-     "{strays} {strays|point lies|points lie} 1e12 times as far out as most others "
-     "and {strays|is|are} left out: {strays|it is|the first is} point {first} at "
-     "({x:6}, {y:6}, {z:6})."},
+     "{strays} {strays|outlier is|outliers are} ignored, 1e12 times farther out than "
+     "most points. {strays|It|The first} is point {first} at ({x:6}, {y:6}, {z:6})."},
     {"unfilled_box",
-     "Samples fill {length} of the side {side} of the box along {axis}: if they "
-     "should fill it, its side is wrong."},
+     "The samples fill {length} of the side {side} of the box along {axis}. If they "
+     "should fill the box, the side is wrong. Try: other sides ({-periodic})."},
     {"samples_beyond_box",
-     "Samples extend over {length} along {axis}, and the box has a side of {side}: "
-     "they are moved into it by whole sides. If they are not unwrapped positions, "
-     "the side is wrong."},
+     "Samples extend over {length} along {axis}, but the box side is {side}. They are "
+     "wrapped into the box. Unless the samples are unwrapped, the side is wrong."},
 
     // interpolation
     {"overshoots",
-     "{wild} of the {values} values of {field} lie farther beyond the samples' "
-     "range than that is wide: the model overshoots there. The model natural stays "
-     "within it."},
+     "{wild} of the {values} values of {field} exceed the data range by more than its "
+     "width. The model overshoots. Try: {-model natural}, which stays within the "
+     "range."},
     {"invalid_queries",
-     "{invalid} of the {queries} queries have no finite coordinates, and no value."},
+     "{invalid} of the {queries} query positions are not finite and have no value."},
     {"queries_outside",
-     "{outside} of the {queries} queries lie outside of the data: {has_values|their "
-     "values rest on no samples around them.|they have no value (NaN).}"},
+     "{outside} of the {queries} query positions are outside the data: "
+     "{has_values|their values are extrapolated.|they have no value (NaN). Try: "
+     "{-extrapolate}.}"},
     {"weak_support",
-     "{weak} of the {queries} queries lie in gaps of the sampling or at its rim, or "
-     "among samples that do not determine the model: their values rest on little."},
+     "{weak} of the {queries} query positions are in gaps, at the border, or near "
+     "samples that do not determine the model. Their values are poorly constrained."},
     {"unsure_values",
      "{unsure} of the {values} values of {field} have a standard error above the "
-     "spread of the samples: the model does not know the field there. Leaving "
-     "samples out tells which one does better."},
+     "spread of the samples. The model is unreliable there. Try: {-validate} to "
+     "compare models."},
     {"no_variogram",
-     "The field {field} is the same at all samples: there is no variogram, and "
-     "every estimate is that value, with error 0."},
+     "The field {field} is constant, so it has no variogram. Every estimate is that "
+     "constant, with error 0."},
     {"nothing_covered",
-     "None of the {tested} held-out samples has a value: each fold is outside of "
-     "the samples that remain. The test measures no error. Try: {-extrapolate}, "
-     "more folds, or {-validate-by blocks}."},
+     "None of the {tested} held-out samples has a value: each fold is outside the "
+     "other samples. No error was measured. Try: {-extrapolate}, more folds, or "
+     "{-validate-by blocks}."},
     {"few_samples_for_choice",
-     "There are too few samples to choose a model by: the local fits are taken."},
+     "There are too few samples to choose a model. Local fits are used."},
 
     // expressions
     {"undefined_field",
-     "The field '{field}' is undefined at {undefined} of {points} points, as by a "
-     "division by zero or the logarithm of a negative number: they have no value."},
+     "The field '{field}' is undefined at {undefined} of {points} points, for example "
+     "through division by zero or the logarithm of a negative number. They have no "
+     "value."},
     {"unknown_derivatives",
-     "At {unknown} of {points} points the neighbours do not determine the "
-     "derivatives, because the standard error is larger than the differences "
-     "between values. These points have no value."},
+     "The derivatives are unknown at {unknown} of {points} points: their standard "
+     "error exceeds the differences between values. These points have no value. Try: "
+     "smooth the field first."},
     {"reduced_derivatives",
-     "Around {samples} {samples|sample|samples} others lie on few planes or lines: "
-     "derivatives "
-     "across these count as 0."},
+     "The neighbours of {samples} {samples|sample|samples} are in few planes or lines. "
+     "Derivatives across them are set to 0."},
 
     // isosurface
     {"no_isopoints",
-     "No isopoints for {isovalue}: it lies outside the range [{low}, {high}] of "
+     "No isopoints for {isovalue}: it is outside the range [{low}, {high}] of "
      "{field}."},
     {"constant_field", "No isopoints for {isovalue}: all values of {field} are {low}."},
     {"lowest_isovalue",
-     "No isopoints for {isovalue}: it is the lowest value of {field}, and values "
-     "equal to the isovalue count as above."},
+     "No isopoints for {isovalue}: it is the minimum of {field}, and values equal to "
+     "the isovalue count as above. Try: a larger isovalue."},
     {"replaced_field",
-     "The samples' field '{field}' is left out: isopoints have one of that name."},
+     "The field '{field}' of the samples is not copied, because isopoints have a field "
+     "of that name."},
 
     // mesh
     {"large_caps",
-     "The mesh at {isovalue} has {percent} % of its area in caps at the border of "
-     "the samples: if values are {is_lower_outside|higher|lower} outside of the "
-     "surface you want, ask for the other outside."},
+     "{percent} % of the mesh area at {isovalue} is caps at the border of the samples. "
+     "If values outside are {is_lower_outside|higher|lower}, try: "
+     "{is_lower_outside|{-outside higher}|{-outside lower}}."},
     {"folds",
-     "Of {triangles} triangles {folds} look away from the surface they are "
-     "on{is_even| and {slivers} have an angle below 5 degrees|}: the samples are "
-     "too sparse, noisy or stretched there; filled gaps help between lines of "
-     "samples, a level set in noise, and isopoints without a mesh anyway."},
+     "{folds} of {triangles} triangles are inverted{is_even| and {slivers} have angles "
+     "below 5 degrees|}. The samples are sparse, noisy or stretched there. Try: "
+     "{-fill-gaps} (lines), {-smooth} (noise), or isopoints without a mesh."},
     {"open_pieces",
-     "Of {pieces} pieces {open} are open, or disagree with others about the "
-     "outside: they enclose no volume, and only their area is measured."},
+     "{open} of {pieces} pieces are open, or their outside contradicts other pieces. "
+     "They enclose no volume, and only their area is measured."},
     {"vague_measures",
-     "Area or volume of {vague} of {surfaces} surfaces are not known to better than "
-     "a third: vertices lie that far from where the surface may be."},
+     "The area or volume of {vague} of {surfaces} surfaces is uncertain by more than a "
+     "third, because the errors of the vertices are large."},
     {"missed_samples",
-     "At {isovalue} the surface encloses {enclosed} samples, and {beyond} have "
-     "values beyond the isovalue: {encloses_more|between samples it is a guess|the "
-     "mesh is coarser than clumps of few samples, or leaves them out}. For masses, "
-     "take the sum beyond the isovalue."},
+     "At {isovalue} the surface encloses {enclosed} samples, but {beyond} are beyond "
+     "the isovalue. {encloses_more|It is not constrained between samples.|It is "
+     "coarser than small clumps, or omits them.} Try: the sum beyond the isovalue, for "
+     "masses."},
     {"kept_unsure_pieces",
-     "All pieces of some isovalues ({kept} of {pieces} pieces) have an error as "
-     "large as they are. They are kept, since nothing would be left."},
+     "All pieces of some isovalues ({kept} of {pieces}) have an error as large as the "
+     "piece. They are kept, because no others exist. Try: other isovalues."},
     {"unsure_pieces",
-     "{unsure} of {pieces} pieces (area {area} +- {error}) have an error as large "
-     "as they are: few samples are around them, or only debris far from the others. "
-     "{are_left_out|They are left out of all figures.|Try: {-drop-unsure} "
-     "leaves them out of the measures.}"},
+     "{unsure} of {pieces} pieces (area {area} +- {error}) have an error as large as "
+     "the piece: few samples surround them, or only distant debris. {are_left_out|They "
+     "are excluded from all measures.|Try: {-drop-unsure} to exclude them.}"},
     {"flat_surfaces",
-     "{flat} of {surfaces} surfaces have no volume, and no samples inside: a mesh "
-     "in one plane encloses nothing. If all samples are in one plane, the "
-     "isosurface is a curve."},
+     "{flat} of {surfaces} surfaces are flat: they have no volume and enclose no "
+     "samples. If all samples are in one plane, the isosurface is a curve."},
     {"negative_volumes",
-     "The surface looks to the side that it encloses: volumes are negative."},
+     "The normals point to the enclosed side, so volumes are negative."},
     {"area_in_gaps",
-     "{percent} % of the area lies in gaps between the samples or at their border, "
-     "where the samples do not tell whether the surface goes on. Shells and plates "
-     "of a few layers of samples look so: if the file has cells, contour the cells "
-     "instead."},
+     "{percent} % of the area is in gaps or at the border of the samples, as in thin "
+     "shells, and not constrained. Try: contour the cells, if any."},
     {"points_without_area",
-     "{percent} % of the points have no part in the area: they have no normal, "
-     "stand at the place of another one, or too few others are around."},
+     "{percent} % of the points do not contribute to the area: they have no normal, "
+     "are duplicates, or have too few neighbours."},
     {"contrary_normals",
-     "{percent} % of the points stand among others that look to the other side: "
-     "unless sheets of the surface lie closer together than its points, orient the "
-     "normals, or areas count twice."},
+     "{percent} % of the points have neighbours with opposite normals. Unless sheets "
+     "are closer than the point spacing, areas count twice. Try: orient the normals."},
     {"self_intersections",
-     "The surface goes through itself: {pairs} {pairs|pair|pairs} of triangles "
-     "intersect, the first at {x:6},{y:6},{z:6}."},
+     "The surface intersects itself in {pairs} {pairs|pair|pairs} of triangles, the "
+     "first at {x:6},{y:6},{z:6}."},
     {"area_without_error",
-     "{percent} % of the area has vertices without an estimated error: the errors "
-     "of the figures are those of the rest."},
+     "{percent} % of the area has vertices without an estimated error. The errors of "
+     "the measures ignore this area."},
 
     // levelset
     {"vanished",
-     "The level set of {field} at the isovalue {isovalue} has vanished: "
-     "{starts_from_values|smoothing took the whole surface away. A larger mu keeps "
-     "it.|the values drew the whole start away. They lie on its other sides, if the "
-     "wrong side is the outside.}"},
+     "The level set of {field} at the isovalue {isovalue} has vanished. "
+     "{starts_from_values|Smoothing removed the whole surface. Try: a larger "
+     "{-mu}.|Inside and outside may be swapped. Try: {-outside}, or no custom start.}"},
     {"tied_values",
-     "Of the values next to the isovalue {isovalue} {percent:2} % are the same: "
-     "values in steps, or at a limit, do not tell how noisy they are, and nothing "
-     "was smoothed. {-mu 0.1} smooths them."},
+     "{percent:2} % of the values next to the isovalue {isovalue} are identical "
+     "(rounded or clipped). The noise is unknown, and nothing was smoothed. Try: {-mu "
+     "0.1}."},
     {"not_converged",
-     "The level set at {isovalue} has not converged after {steps} "
-     "{steps|step|steps}: it still moves by {change:2} spacings per unit of "
-     "time.{is_last_stage|| It ended at mu {mu:2}, where {chosen_mu:2} was chosen.}"},
+     "The level set at {isovalue} has not converged after {steps} {steps|step|steps}: "
+     "it moves by {change:2} spacings per unit of time.{is_last_stage|| It ended at mu "
+     "{mu:2}, not {chosen_mu:2}.}"},
     {"lost_features",
-     "Smoothing has taken features away: {lost} {lost|sample that lies|samples that "
-     "lie} farther from the isovalue {isovalue} than noise explains {lost|is|are} "
-     "on the other side of the surface now. A larger mu than {mu:2} keeps more of "
-     "them."},
+     "Smoothing removed features: {lost} {lost|sample is|samples are} now across the "
+     "surface, farther from the isovalue {isovalue} than noise explains. Try: {-mu} "
+     "above {mu:2}."},
     {"outliers",
-     "{percent:2} % of the samples next to the surface ({outliers}) have values "
-     "unlike those of all their neighbours: the level set takes them for outliers "
-     "and counts the median of the neighbours instead."},
+     "{percent:2} % of the samples next to the surface ({outliers}) are outliers: "
+     "their values differ from all neighbours. The level set uses the median of the "
+     "neighbours."},
 
     // surface
     {"estimated_normals",
-     "The cloud has no normals: they were estimated, and the surface is drawn from "
+     "The cloud has no normals. They were estimated, and the surface is drawn from "
      "both sides."},
     {"bad_splats",
-     "{bad} of {splats} splats are left out: they are not finite, have no normal, "
-     "tangent or radius, or are larger or farther away than {reach:6}."},
+     "{bad} of {splats} splats are ignored: they are not finite, have no normal, "
+     "tangent or radius, or exceed {reach:6} in size or distance."},
     {"ready_splats",
-     "It holds splats, which are drawn as they are: delta and lambda are not used."},
+     "The points are splats already and are drawn unchanged. The parameters delta and "
+     "lambda are not used."},
 
     // multivariate
-    {"constant_attribute",
-     "The attribute {attribute} is the same everywhere and is left out."},
+    {"constant_attribute", "The attribute {attribute} is constant and is ignored."},
     {"few_clusters",
-     "The rows are in {clusters} {clusters|cluster|clusters}, so there is nothing to "
-     "keep apart: the "
-     "projection is to their principal axes."},
+     "There {clusters|is|are} {clusters} {clusters|cluster|clusters}: too few to "
+     "separate. The projection uses the principal axes."},
     {"no_clusters",
-     "No cluster found among {points} points: none of at least {min_size} points "
-     "stands out from the others by more than chance; a smaller least size may find "
-     "some, or all points may be allowed to be a single cluster."},
+     "Among {points} points, no cluster of at least {min_size} differs from the others "
+     "by more than chance. Try: a smaller minimum size, or allow a single cluster."},
     {"no_clusters_at_distance",
-     "No cluster found among {points} points: none of at least {min_size} points "
-     "hangs together at the distance {distance}; a larger distance or a smaller "
-     "least size may find some."},
+     "Among {points} points, no cluster of at least {min_size} is connected at the "
+     "distance {distance}. Try: a larger distance, or a smaller minimum size."},
     {"mostly_noise",
-     "{noise} of {points} points belong to no cluster: the clusters that were found "
-     "tell little about these data."},
+     "{noise} of {points} points belong to no cluster. The clusters describe little of "
+     "the data."},
     {"clusters_of_rounding",
-     "{steps}: if values are rounded, these clusters are steps of rounding. Uniform "
-     "noise of up to half a step, added to every rounded attribute, tells which "
-     "clusters do not rest on it."},
+     "{steps}: if values are rounded, these clusters are artefacts. Try: cluster again "
+     "with uniform noise of up to half a step added to rounded attributes."},
 
     // pipeline
     {"isopoints_at_border",
-     "{percent} % of the isopoints lie at the border of the samples: the surface "
-     "may go on beyond it."},
+     "{percent} % of the isopoints are at the border of the samples. The surface may "
+     "continue beyond it. Try: samples farther out, if available."},
     {"isopoints_beside_samples",
-     "{percent} % of the isopoints lie at the border of the samples or in gaps: the "
-     "surface may go on beyond it."},
+     "{percent} % of the isopoints are at the border of the samples or in gaps. The "
+     "surface may continue there. Try: samples farther out, if available."},
     {"guessed_isopoints",
-     "{percent} % of the isopoints lie between lines of samples or beside gaps: "
-     "where the surface crosses a line is known, how it runs from there is a "
-     "guess.{validate| A hold-out test tells how good it is ({-validate}).|}{scale| "
-     "{-scale}{gaps| or {-fill-gaps}|} may help.|{gaps| {-fill-gaps} may "
-     "help.|}}{bridged| {-drop-bridged} leaves out the isopoints in gaps.|}"},
+     "{percent} % of the isopoints are between lines of samples or next to gaps. The "
+     "surface is reliable where it crosses a line, and not constrained "
+     "elsewhere.{validate| Check it with {-validate}.|}{scale| Try: {-scale}{gaps| or "
+     "{-fill-gaps}|}.|{gaps| Try: {-fill-gaps}.|}}{bridged| {-drop-bridged} removes "
+     "the isopoints in gaps.|}"},
     {"smoothed_guesses",
-     "{percent} % of the isopoints lie between lines of samples or beside gaps: "
-     "where the surface crosses a line is known, how it runs from there is a guess. "
-     "The isosurface through the same samples can be tested "
-     "({-validate}), and its gaps filled ({-fill-gaps})."},
+     "{percent} % of the isopoints are between lines of samples or next to gaps. The "
+     "surface is not constrained there. Try: {-validate} and {-fill-gaps} with the "
+     "unsmoothed isosurface."},
     {"guessed_border",
-     "{percent} % of the isopoints lie in or beside gaps between samples, and where "
-     "the border of the cluster runs there is a guess."},
+     "{percent} % of the isopoints are in or next to gaps between samples. The cluster "
+     "border is not constrained there. Try: a surface at a distance from the points."},
     {"thin_parts",
-     "{percent} % of the isopoints are on parts or gaps that are thinner than two "
-     "spacings: they are one layer of samples, which cannot tell the two sides "
-     "apart, or noise. Areas and volumes there say little. If the file has cells, "
-     "contour the cells instead; if the values are noisy, smooth them."},
+     "{percent} % of the isopoints are on parts or gaps thinner than two spacings "
+     "(single sample layers, or noise). Areas and volumes are unreliable. Try: contour "
+     "cells, or {-smooth}."},
     {"spikes",
-     "Of the samples next to the surface {percent:2} % have values far from those "
-     "of all samples around them, which agree with one another: the isopoints "
-     "around each of them show an outlier and no surface. {-smooth} takes the "
-     "median of the neighbours instead, and {-where} leaves out values that cannot "
-     "be."},
+     "{percent:2} % of the samples next to the surface are outliers with consistent "
+     "neighbours. The isopoints around them are artefacts. Try: {-smooth}, or {-where} "
+     "to exclude the outliers."},
     {"contradicted_isopoints",
-     "Samples contradict {removed} of {isopoints} isopoints, which were removed: "
-     "the 8 nearest samples are all on one side of the isovalue. Try: "
-     "{-interpolation fit} keeps them."},
+     "{removed} of {isopoints} isopoints were removed: their 8 nearest samples are on "
+     "one side of the isovalue. Try: {-interpolation fit} to keep them."},
     {"few_isopoints_left",
-     "Of {isopoints} isopoints {left} are left by "
-     "{by_error|{-max-error}{by_support| and {-drop-bridged}|}|{-drop-bridged}}: of "
-     "the rest of the surface the samples do not tell that well."},
+     "Only {left} of {isopoints} isopoints remain after "
+     "{by_error|{-max-error}{by_support| and {-drop-bridged}|}|{-drop-bridged}}. The "
+     "samples determine the rest less precisely.{by_error| Try: a larger "
+     "{-max-error}.|}"},
     {"no_isopoints_left",
-     "{isopoints|The last isopoint was|The last {isopoints} isopoints were} left "
-     "out by {by_error|{-max-error}{by_support| and "
-     "{-drop-bridged}|}|{-drop-bridged}}: the samples tell of no part of the "
-     "surface that well."},
+     "{by_error|{-max-error}{by_support| and {-drop-bridged}|}|{-drop-bridged}} "
+     "removed the last {isopoints|isopoint|{isopoints} isopoints}. No part of the "
+     "surface is certain enough.{by_error| Try: a larger {-max-error}.|}"},
     {"surface_tells_nothing",
-     "Near the surface, the class of samples that were left out is told no better "
-     "by the surface than by always saying the same: it does not follow the field."},
+     "Near the surface, cross-validation is worse than the baseline: the majority "
+     "class classifies more held-out samples correctly. Do not use the surface between "
+     "the samples."},
     {"samples_tell_better",
-     "Near the surface, the nearest sample tells the class of samples that were "
-     "left out better than the surface does: the field changes too fast for these "
-     "samples there, or their values are noisy or outliers."},
+     "Near the surface, the nearest sample classifies held-out samples better than the "
+     "surface does. The values change too fast, or are noisy. Try: {-smooth}, or "
+     "{-where} against outliers."},
     {"lines_tell_better",
-     "Near the surface, the nearest sample tells the class of samples that were "
-     "left out better than the surface does: trust where it crosses lines of "
-     "samples, not what lies between.{scale| {-scale}{gaps| or {-fill-gaps}|} may "
-     "help.|{gaps| {-fill-gaps} may help.|}}"},
+     "Near the surface, the nearest sample classifies held-out samples better than the "
+     "surface does. Use only the crossings with lines of samples.{scale| Try: "
+     "{-scale}{gaps| or {-fill-gaps}|}.|{gaps| Try: {-fill-gaps}.|}}"},
     {"small_errors",
-     "Of the samples that were left out farther from the surface than its estimated "
-     "error many lie on the wrong side: the errors are too small there, or the "
-     "samples are noisy."},
+     "More than 20 % of the held-out samples beyond the estimated error are on the "
+     "wrong side. Errors are too small, or samples noisy. Do not filter by error."},
     {"unfilled_gaps",
-     "There are gaps between the samples, and none was filled: {reason}."},
+     "There are gaps between the samples, but none was filled: {reason}."},
     {"few_filled_gaps",
      "Few gaps were filled: at {surer} of {crossings} crossings of the surface in "
-     "gaps, fits to the measured samples are surer of it than kriging is."},
+     "gaps, local fits have smaller standard errors than kriging. No action is "
+     "needed."},
     {"no_isopoints_in_gaps",
-     "There are no isopoints between the samples: of {found} that were found, "
-     "kriging explains nothing of the variance at {unexplained}, and {off_surface} "
-     "lie off the surface that it predicts."},
+     "No isopoints are left in the gaps. Of {found}, kriging explains no variance at "
+     "{unexplained}, and {off_surface} are off the predicted surface. Try: another "
+     "{-scale}."},
     {"worse_in_gaps",
-     "The surface is worse where gaps are filled: half of the errors between "
-     "predicted samples are above {predicted:3}, between measured ones across a gap "
-     "above {measured:3}. Leave out {-fill-gaps}."},
+     "Filled gaps make the surface worse: the median error is {predicted:3} between "
+     "predicted samples, but {measured:3} between measured samples across gaps. Try: "
+     "no {-fill-gaps}."},
     {"guess_in_gaps",
-     "Between the samples the surface is a guess: at half of the isopoints there, "
-     "kriging explains no more than {percent} % of the variance (field confidence). "
-     "A hold-out test tells how good it is ({-validate})."},
+     "The surface in gaps is unreliable: at half of its isopoints, kriging explains at "
+     "most {percent} % of the variance (field confidence). Check it with {-validate}."},
     {"equal_isovalues",
-     "Isovalues that are equal in float cannot be told apart by the field isovalue: "
-     "extract them one at a time."},
+     "Some isovalues are equal in float, so the field isovalue cannot distinguish "
+     "them. Try: extract them one at a time."},
     {"edges_without_image",
      "{left} of {edges} edges in the faces of the box have no image in the opposite "
-     "face, so that the mesh is not closed across it: the surface is tangent to the "
-     "face there, or the samples are too sparse or noisy."},
+     "face. The mesh is open there: the surface is tangent, or samples are sparse or "
+     "noisy."},
 
     // render
     {"no_logarithms",
-     "The values of '{field}' are not above 0 at {grey} of {points} points, where "
-     "they have no logarithm: these points are grey."},
+     "The values of '{field}' are not positive at {grey} of {points} points and have "
+     "no logarithm. These points are grey."},
 
     // vtk
     {"short_distance",
-     "The longest edge of the cluster's spanning tree is {edge}: at less than half "
-     "of it the surface falls into pieces."},
+     "The distance is less than half of the cluster's longest spanning-tree edge, "
+     "{edge}. The surface breaks into pieces. Try: a larger distance."},
     {"shared_cells",
-     "The {points} points of the cluster lie in {cells} cells of the grid, and the "
-     "{is_distance|surface is at a distance from these|hull goes through one of "
-     "each}: a finer grid helps, or to leave out points that lie far from the "
-     "others{has_outlier| (the point of index {point} lies {ratio} times as far "
-     "from the middle as half of them do)|}."},
+     "The {points} points of the cluster are in only {cells} grid cells, and the "
+     "{is_distance|surface surrounds these cells|hull uses one point per cell}. Try: a "
+     "finer grid, or exclude distant points{has_outlier| (point {point} is {ratio} "
+     "times as far from the centre as the median)|}."},
 
     // filters
-    {"renamed_array", "The array '{array}' is called '{name}'."},
+    {"renamed_array", "The array '{array}' is renamed to '{name}'."},
     {"unfitting_array",
-     "The array '{array}' has {tuples} tuples for {points} points and is left out."},
+     "The array '{array}' is ignored: it has {tuples} tuples for {points} points."},
     {"cell_data_left_out",
-     "There are data of cells only, which are left out: the option cells, or the "
-     "filter vtkCellCenters, makes samples of them."},
+     "The input has cell data only, which are ignored. Try: {-cells}, or the filter "
+     "vtkCellCenters, to use cells as samples."},
     {"array_of_texts",
-     "The array '{array}' holds no numbers but is a {type} and is left out."},
+     "The array '{array}' is ignored: it is a {type} without numbers."},
 
     // io
     {"several_names",
-     "The attribute '{attribute}' has several names per point: it holds their "
-     "numbers."},
+     "The attribute '{attribute}' has several names per point. It is stored as the "
+     "numbers of the names."},
     {"file_attributes",
      "{attributes} {attributes|attribute|attributes} of the whole file "
-     "{attributes|is|are} left out."},
+     "{attributes|is|are} ignored."},
     {"point_groups",
-     "{groups} {groups|group|groups} of points {groups|is|are} left out."},
+     "{groups} {groups|group|groups} of points {groups|is|are} ignored."},
     {"mixed_units",
      "Coordinates are {x}, {y} and {z}, so distances mix {are_degrees|degrees with "
-     "another unit|different units of length}. Try: {can_be_mapped|{-map auto}, "
-     "which maps degrees to kilometres or metres|columns in one unit of length}, or "
-     "factors for the axes ({-scale})."},
+     "another unit|different units of length}. Try: {can_be_mapped|{-map auto} "
+     "(degrees to kilometres or metres)|columns in one unit}, or factors ({-scale})."},
     {"common_ending",
-     "The columns {x}, {y} and {z} are taken as the coordinates, because their "
-     "names differ in a letter only. Try: {-xyz} if other columns are the "
-     "coordinates."},
+     "The columns {x}, {y} and {z} are used as coordinates, because their names differ "
+     "in one letter only. Try: {-xyz} to choose other columns."},
     {"unfitting_block",
-     "The block '{block}' does not fit the particles and is left out."},
+     "The block '{block}' is ignored, because it does not fit the particles."},
     {"far_positions",
-     "{far} of {positions} positions {far|is|are} far from all others, for example "
-     "at {longitude}, {latitude}, {distance} km from their median. Such positions "
-     "are often missing fixes. Try: {-where \"{field} != {degrees:17}\"} leaves "
-     "them out."},
+     "{far} of {positions} positions {far|is|are} far away, for example {longitude}, "
+     "{latitude}, {distance} km from the median. Try: {-where \"{field} != "
+     "{degrees:17}\"} to exclude missing fixes."},
     {"mapped_positions",
      "Positions are mapped around {longitude}, {latitude}: x and y are "
      "{in_metres|metres|kilometres} to the east and north{tells_z|, z is {z}|}."},
     {"inexact_fields_left_out",
-     "{path} leaves out the {fields|field|fields} {names}: the format has no 64-bit "
-     "integers, and double does not hold {fields|its|their} values exactly. Try: "
-     ".vtp, .pcd or .csv to keep {fields|it|them}."},
+     "{path} omits the {fields|field|fields} {names}: the format has no 64-bit "
+     "integers, and double cannot represent {fields|its|their} values. Try: .vtp, .pcd "
+     "or .csv."},
     {"numbered_names",
-     "{path} holds numbers only: the names in {fields} are counted from 0 in "
-     "alphabetical order, and .csv, .ply or .vtp keep them."},
+     "{path} stores numbers only: the names in {fields} are zero-based indices in "
+     "alphabetical order. Try: .csv, .ply or .vtp to keep the names."},
     {"numbered_names_listed",
-     "{path} holds numbers only: the names in {fields} are counted from 0 in "
-     "alphabetical order, and comments of the file list them."},
+     "{path} stores numbers only: the names in {fields} are zero-based indices in "
+     "alphabetical order. Comments in the file list the names."},
     {"extra_bytes",
-     "{bytes} extra {bytes|byte|bytes} of every point {bytes|is|are} left out."},
+     "{bytes} extra {bytes|byte|bytes} of every point {bytes|is|are} ignored."},
     {"unnamed_columns",
-     "The array names no columns: those behind x, y and z are called column_3 and "
-     "so on."},
+     "The array does not name its columns. The columns after x, y and z are called "
+     "column_3, column_4 and so on."},
     {"array_of_others",
-     "The array '{array}' has no numbers for every point and is left out."},
-    {"list_property", "The list property '{property}' of the vertices is left out."},
+     "The array '{array}' is ignored: it does not have numbers for every point."},
+    {"list_property", "The list property '{property}' of the vertices is ignored."},
     {"several_kinds",
-     "There are {kinds} particles; the first are read, {-particles} chooses others."},
+     "The file has several kinds of particles: {kinds}. The first kind is read. Try: "
+     "{-particles} to choose another kind."},
     {"comoving_units",
-     "Numbers are those of the file, whose units hold factors of the redshift "
-     "{redshift}{has_hubble| and of the Hubble parameter {hubble}|. The file does "
-     "not give the Hubble parameter}."},
+     "Values are in the units of the file, with factors of the redshift "
+     "{redshift}{has_hubble| and the Hubble parameter {hubble}|. The file does not "
+     "give the Hubble parameter}."},
     {"repeated_column",
-     "Line {line} names '{name}' again: that column is called '{column}'."},
+     "Line {line} repeats the name '{name}'. That column is renamed to '{column}'."},
     {"more_repeated_columns",
-     "{columns} more {columns|column is|columns are} told apart in the same way."},
+     "{columns} more repeated {columns|column is|columns are} renamed in the same "
+     "way."},
     {"no_header_line",
-     "There is no header line: the columns are called column_0 to column_{last}."},
+     "The file has no header line. The columns are called column_0 to column_{last}."},
     {"skipped_titles",
-     "{lines} {lines|line|lines} above the names of the columns {lines|was|were} "
-     "skipped, from '{first}' on."},
-    {"skipped_units", "Line {line} holds no number and was taken for units: {units}."},
-    {"skipped_count", "Line {line} was taken for the number of rows and skipped."},
-    {"decimal_commas", "Numbers have decimal commas: 0,5 is one half."},
-    {"first_zone", "Of the zones of Tecplot's file the first one is read, as points."},
+     "{lines} {lines|line|lines} above the column names {lines|is|are} skipped, "
+     "starting with '{first}'."},
+    {"skipped_units", "Line {line} has no numbers and is read as units: {units}."},
+    {"skipped_count", "Line {line} is read as the number of rows and skipped."},
+    {"decimal_commas", "Numbers have decimal commas: 0,5 is read as one half."},
+    {"first_zone", "Of the Tecplot zones, the first one is read, as points."},
     {"below_detection",
-     "{cells} values of '{column}' are given as below a limit, as <0.25: the limit is "
-     "taken, and '{flag}' is 1 there. Try: {column}*(1-0.5*{flag}) takes half of it."},
+     "{cells} values of '{column}' are below a detection limit, for example <0.25. The "
+     "limit is used, and '{flag}' is 1 there. Try: {column}*(1-0.5*{flag}) for half "
+     "the "
+     "limit."},
     {"guessed_coordinates",
-     "The header names no x, y, z: the first three columns{skips_times| that are no "
-     "times|} ({x}, {y}, {z}) are the coordinates."},
+     "The header does not name x, y and z. The first three columns{skips_times| that "
+     "are not times|} ({x}, {y}, {z}) are used. Try: {-xyz} to choose others."},
     {"kept_as_names",
-     "The column '{column}' is kept as names, since '{cell}' in line {line} is no "
-     "number."},
+     "The column '{column}' is read as names, because '{cell}' in line {line} is not a "
+     "number. Try: correct the cell or leave it empty."},
     {"too_many_names",
-     "The column '{column}' holds more than {most} different names, and is left out."},
+     "The column '{column}' is ignored: it has more than {most} different names."},
     {"rounded_integers",
-     "The column '{column}' holds integers beyond 2^53, which lose digits."},
+     "The column '{column}' has integers beyond 2^53, which lose digits."},
 
     // io_vtk
     {"wide_table",
-     "The table '{table}' has {components} numbers per point and is left out."},
+     "The table '{table}' is ignored: it has {components} numbers per point."},
     {"several_groups",
-     "Points are read from '{group}'; {others} other {others|group holds|groups hold} "
-     "points too, as in "
-     "file.h5:{other}."},
+     "Points are read from '{group}'. {others} other {others|group has|groups have} "
+     "points too. Try: file.h5:{other} to read another group."},
     {"vertical_axis", "z is {z}."},
     {"dead_particles",
-     "{dead} dead {dead|particle|particles} (h <= 0) {dead|is|are} left out."},
+     "{dead} dead {dead|particle|particles} (h <= 0) {dead|is|are} ignored."},
     {"field_of_some_parts",
-     "The field '{field}' is left out: not all of the parts have it."},
-    {"last_time", "Of {times} times the last one is read, {last}."},
-    {"first_listed_time",
-     "Of the times that '{list}' lists the first one, {time}, is read."},
+     "The field '{field}' is ignored: some parts do not have it."},
+    {"last_time", "Of {times} times, the last one is read: {last}."},
+    {"first_listed_time", "Of the times in '{list}', the first one is read: {time}."},
     {"repeated_files",
-     "The list '{list}' names files again {times} {times|time|times}: each of them is "
-     "read once."},
-    {"array_without_numbers", "The array '{array}' holds no numbers and is left out."},
+     "The list '{list}' repeats files {times} {times|time|times}. Each file is read "
+     "once."},
+    {"array_without_numbers", "The array '{array}' is ignored: it has no numbers."},
     {"wide_array",
-     "The array '{array}' has {components} numbers per point and is left out."},
+     "The array '{array}' is ignored: it has {components} numbers per point."},
     {"only_cell_data",
-     "There are data of cells only, which are left out: ParaView's filter Cell "
-     "Centers makes samples of them."},
-    {"first_time", "Of its {times} times the first one is read."},
+     "The file has cell data only, which are ignored. Try: ParaView's filter Cell "
+     "Centers to use cells as samples."},
+    {"first_time", "Of {times} times, the first one is read."},
     {"unfitting_layers",
-     "The array '{array}' has {layers} layers of {numbers} numbers for {needed} of "
-     "{points} points and is left out."},
+     "The array '{array}' is ignored: it has {layers} layers of {numbers} numbers for "
+     "{needed} layers of {points} points."},
 
     // tools
     {"box_in_file",
-     "The file names a box of {sides}: if it repeats, {-periodic header} sees "
-     "neighbours across its faces."},
+     "The file names a box with the sides {sides}. Try: {-periodic header} if the box "
+     "is periodic."},
     {"white_on_white",
-     "The surface is white, as is the background: {-no-shading} leaves its lines, "
-     "by {-silhouettes} and {-features}, or colours, by {-color}."},
+     "The surface and the background are both white. Try: {-color}, or {-no-shading} "
+     "with {-silhouettes} and {-features}."},
     {"no_masses",
-     "There is no field of masses: sph_density counts particles per volume."},
+     "There is no mass field. The field sph_density counts particles per volume."},
     {"only_one_mapped",
-     "The positions of '{path}' are mapped and those of '{other}' are not: their "
-     "coordinates are not in one system. Try: {-map auto} maps both, {-map lon,lat} "
-     "around a given origin."},
+     "The positions of '{path}' are mapped, but not those of '{other}'. Their "
+     "coordinate systems differ. Try: {-map auto} for both, or {-map lon,lat} with an "
+     "origin."},
     {"no_longitudes",
-     "'{path}' has no columns or fields of longitude and latitude in degrees: "
-     "{-map} leaves its coordinates as they are."},
+     "'{path}' has no columns or fields of longitude and latitude in degrees. {-map} "
+     "does not change its coordinates. Try: {-xyz} to name the columns."},
     {"not_on_map",
-     "'{path}' has no longitudes and latitudes: its coordinates are taken for metres "
-     "east and north of the middle of the map of '{other}'. If they are degrees, call "
-     "their columns longitude and latitude."},
+     "'{path}' has no longitudes. Its coordinates are used as metres east and north of "
+     "the map centre of '{other}'. Try: name columns in degrees longitude and "
+     "latitude."},
     {"graphics_card_failed",
-     "The graphics card could not draw it, the CPU did: {reason}"},
+     "The graphics card failed, and the image was drawn on the CPU: {reason}"},
     {"repeated_colors",
-     "The points have more than {most} names in '{field}': their colours repeat, "
-     "and the picture has no legend."},
+     "The field '{field}' has more than {most} names. Their colours repeat, and the "
+     "image has no legend."},
     {"no_points_in_file", "{path} has no points."},
     {"no_finite_points", "{path} has no point with finite x, y, z."},
     {"no_coordinate_columns",
-     "{path} names no columns of coordinates: {-xyz} chooses them."},
+     "{path} does not name coordinate columns. Try: {-xyz} to choose them."},
     {"fits_swing",
-     "Fits swing where the field steps to the value outside: pieces beside the "
-     "surface may be theirs, and {-interpolation linear}, for points, has none."},
-    {"nothing_to_draw", "There is nothing to draw: {path} was not written."},
+     "The fits oscillate at the jump to {-outside-value} and may create spurious "
+     "pieces. Try: {-interpolation linear}, for points."},
+    {"nothing_to_draw", "There is nothing to draw. {path} was not written."},
     {"stl_without_origin",
-     "STL holds single precision, which these coordinates exceed: those in the file "
-     "are relative to {origin}."},
+     "STL has single precision, too coarse for these coordinates. The coordinates in "
+     "the file are relative to {origin}."},
     {"gaussians_without_origin",
-     "Gaussians have coordinates in float: they start at an origin, {origin}, which "
-     "is not in the file."},
+     "Gaussians have float coordinates, here relative to the origin {origin}. The file "
+     "does not contain the origin."},
     {"oriented_to_zero",
-     "The file has no normals to orient by: the new ones look to 0,0,0; "
-     "{-viewpoint} chooses another place."},
+     "The file has no normals to orient by. The new normals point towards 0,0,0. Try: "
+     "{-viewpoint} to choose another point."},
     {"cells_not_used",
-     "The cells of the input are not used: {reason} The samples decide where the "
-     "data are."},
+     "The cells of the input are not used: {reason} The samples determine where the "
+     "data are. Try: repair the cells."},
     {"grey_places",
-     "The picture is grey at {hidden} of {places} places, where values of '{field}' "
-     "are not above 0 and have no logarithm."},
+     "The image is grey at {hidden} of {places} points: values of '{field}' are not "
+     "positive there and have no logarithm."},
     {"unconstrained_measures",
-     "Most of the surface lies between lines of samples or beside gaps: its area, "
-     "its volume and what is inside are not constrained by the samples. Try: "
-     "{-block dx,dy,dz} estimates volumes and means beyond a value without a "
-     "surface."},
+     "Most of the surface is between lines of samples or next to gaps. Its measures "
+     "are not constrained. Try: {-block dx,dy,dz} for volumes without a surface."},
     {"no_triangles",
-     "{surface} has no triangles: distances to it are those to its points, and no "
-     "smaller than these lie apart."},
+     "{surface} has no triangles. Distances to its points are used, which are limited "
+     "by the point spacing."},
     {"many_common_fields",
-     "The surfaces have {fields} fields in common: {told} of them are told."},
+     "The surfaces have {fields} fields in common. {told} of them are reported."},
 };
 
 } // namespace

@@ -140,19 +140,21 @@ refusal(const std::function<void(pcl::PCLPointCloud2&)>& spoil)
 
 TEST(CloudView, RefusesByNameWhatItCannotRead)
 {
-  EXPECT_EQ("The cloud is big endian: swap its bytes first.",
-            refusal([](auto& cloud) { cloud.is_bigendian = 1; }));
+  EXPECT_EQ(
+      "The cloud is big-endian, which is not supported. Try: swap its bytes first.",
+      refusal([](auto& cloud) { cloud.is_bigendian = 1; }));
   EXPECT_EQ("The field intensity ends beyond the 32 bytes of a point of the cloud.",
             refusal([](auto& cloud) { cloud.fields[3].offset = 30; }));
   EXPECT_EQ("A field has the unknown type 77.",
             refusal([](auto& cloud) { cloud.fields[3].datatype = 77; }));
-  EXPECT_EQ("The cloud holds 3199 bytes, fewer than its 100 points need.",
+  EXPECT_EQ("The cloud has 3199 bytes, too few for its 100 points.",
             refusal([](auto& cloud) { cloud.data.pop_back(); }));
   EXPECT_NE(std::string::npos, refusal([](auto& cloud) {
                                  cloud.fields[1].name = "why";
-                               }).find("needs a number each of x, y and z"));
-  EXPECT_EQ("4294967296 points are more than PCL can number: take them in pieces.",
-            refusal([](auto& cloud) { cloud.width = cloud.height = 65536; }));
+                               }).find("requires one number each for x, y and z"));
+  EXPECT_EQ(
+      "4294967296 points are more than PCL can number. Try: process them in pieces.",
+      refusal([](auto& cloud) { cloud.width = cloud.height = 65536; }));
 }
 
 /** \param run a stage with these indices into 100 points */

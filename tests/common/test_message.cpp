@@ -61,45 +61,45 @@ fewIsopointsLeft(bool by_error, bool by_support)
 TEST(Message, ParametersAreNamedAsByTheFrontEnd)
 {
   expectNames(fewIsopointsLeft(true, false),
-              " left by max_error: of",
-              " left by -max-error: of",
-              " left by MaximumError: of");
+              " remain after max_error. The",
+              " remain after -max-error. The",
+              " remain after MaximumError. The");
   expectNames(fewIsopointsLeft(true, true),
-              " left by max_error and drop_bridged: of",
-              " left by -max-error and -drop-bridged: of",
-              " left by MaximumError and DropBridged: of");
+              " remain after max_error and drop_bridged. The",
+              " remain after -max-error and -drop-bridged. The",
+              " remain after MaximumError and DropBridged. The");
   expectNames(fewIsopointsLeft(false, false),
-              " left by drop_bridged: of",
-              " left by -drop-bridged: of",
-              " left by DropBridged: of");
+              " remain after drop_bridged. The",
+              " remain after -drop-bridged. The",
+              " remain after DropBridged. The");
   expectNames(Message("spikes", {{"percent", 3}}),
-              " smooth takes the median of the neighbours instead, and where leaves",
-              " -smooth takes the median of the neighbours instead, and -where leaves",
-              " Smooth takes the median of the neighbours instead, and Where leaves");
+              "Try: smooth, or where to",
+              "Try: -smooth, or -where to",
+              "Try: Smooth, or Where to");
 }
 
 TEST(Message, ParametersHaveValues)
 {
   expectNames(Message("tied_values", {{"isovalue", "5"}, {"percent", 12}}),
-              " mu=0.1 smooths them.",
-              " -mu 0.1 smooths them.",
-              " Mu=0.1 smooths them.");
+              "Try: mu=0.1.",
+              "Try: -mu 0.1.",
+              "Try: Mu=0.1.");
   expectNames(Message("contradicted_isopoints", {{"removed", 3}, {"isopoints", 900}}),
-              "Try: interpolation=fit keeps",
-              "Try: -interpolation fit keeps",
-              "Try: Interpolation=fit keeps");
+              "Try: interpolation=fit to keep",
+              "Try: -interpolation fit to keep",
+              "Try: Interpolation=fit to keep");
   expectNames(Message("nothing_covered", {{"tested", 160}}),
               "Try: extrapolate, more folds, or validate_by=blocks.",
               "Try: -extrapolate, more folds, or -validate-by blocks.",
               "Try: Extrapolate, more folds, or ValidateBy=blocks.");
   expectNames(Message("conflicting_samples", {{"percent", 8}}),
-              " where chooses among them, as in where=\"experiment=1\".",
-              " -where chooses among them, as in -where \"experiment=1\".",
-              " Where chooses among them, as in Where=\"experiment=1\".");
+              "Try: where to select one, for example where=\"experiment=1\".",
+              "Try: -where to select one, for example -where \"experiment=1\".",
+              "Try: Where to select one, for example Where=\"experiment=1\".");
   expectNames(Message("unconstrained_measures", {}),
-              "Try: block=dx,dy,dz estimates",
-              "Try: -block dx,dy,dz estimates",
-              "Try: Block=dx,dy,dz estimates");
+              "Try: block=dx,dy,dz for",
+              "Try: -block dx,dy,dz for",
+              "Try: Block=dx,dy,dz for");
 }
 
 /** A name, a number of all digits, and a value of a parameter that holds both. */
@@ -116,9 +116,10 @@ TEST(Message, ValuesOfParametersHoldValues)
                            {"degrees", -42.1}});
     const std::string words =
         std::to_string(far) + " of 2002 positions " + (far == 1 ? "is" : "are") +
-        " far from all others, for example at 0.1 E, 42.5 S, 4760 km from their "
-        "median. Such positions are often missing fixes. Try: ";
-    const std::string condition = "\"lat != -42.100000000000001\" leaves them out.";
+        " far away, for example 0.1 E, 42.5 S, 4760 km from the median. "
+        "Try: ";
+    const std::string condition =
+        "\"lat != -42.100000000000001\" to exclude missing fixes.";
     EXPECT_EQ(words + "where=" + condition, message.text());
     EXPECT_EQ(words + "-where " + condition, message.text(ParameterNames::Options));
     EXPECT_EQ(words + "Where=" + condition, message.text(ParameterNames::Properties));
@@ -128,8 +129,8 @@ TEST(Message, ValuesOfParametersHoldValues)
 TEST(Message, ChoicesHoldChoices)
 {
   const std::string guess =
-      "40 % of the isopoints lie between lines of samples or beside gaps: where the "
-      "surface crosses a line is known, how it runs from there is a guess.";
+      "40 % of the isopoints are between lines of samples or next to gaps. The surface "
+      "is reliable where it crosses a line, and not constrained elsewhere.";
   for (const bool validate : {false, true})
     for (const bool scale : {false, true})
       for (const bool gaps : {false, true}) {
@@ -146,13 +147,13 @@ TEST(Message, ChoicesHoldChoices)
                                   const std::string& dropping) {
           std::string text = guess;
           if (validate)
-            text += " A hold-out test tells how good it is (" + test + ").";
+            text += " Check it with " + test + ".";
           if (scale && gaps)
-            text += " " + factors + " or " + filling + " may help.";
+            text += " Try: " + factors + " or " + filling + ".";
           else if (scale || gaps)
-            text += " " + (scale ? factors : filling) + " may help.";
+            text += " Try: " + (scale ? factors : filling) + ".";
           if (!gaps)
-            text += " " + dropping + " leaves out the isopoints in gaps.";
+            text += " " + dropping + " removes the isopoints in gaps.";
           return text;
         };
         EXPECT_EQ(expected("validate", "scale", "fill_gaps", "drop_bridged"),
@@ -169,13 +170,14 @@ TEST(Message, OneIsNotMany)
   const auto beyond = [](int points) {
     return Message("points_beyond_float", {{"points", points}}).text();
   };
-  EXPECT_EQ("1 point has a coordinate of 3.4e38 or more, which float does not hold. It "
-            "counts as a point without a position.",
-            beyond(1));
+  EXPECT_EQ(
+      "1 point has a coordinate of 3.4e38 or more, too large for float. It counts as "
+      "missing.",
+      beyond(1));
   for (const int points : {0, 2, 11})
     EXPECT_EQ(std::to_string(points) +
-                  " points have a coordinate of 3.4e38 or more, which float does not "
-                  "hold. They count as points without a position.",
+                  " points have a coordinate of 3.4e38 or more, too large for float. "
+                  "They count as missing.",
               beyond(points));
   const auto left_out = [](int isopoints) {
     return Message(
@@ -183,8 +185,8 @@ TEST(Message, OneIsNotMany)
                {{"isopoints", isopoints}, {"by_error", true}, {"by_support", false}})
         .text();
   };
-  EXPECT_EQ(0u, left_out(1).find("The last isopoint was left out by max_error: "));
-  EXPECT_EQ(0u, left_out(9).find("The last 9 isopoints were left out by max_error: "));
+  EXPECT_EQ(0u, left_out(1).find("max_error removed the last isopoint. "));
+  EXPECT_EQ(0u, left_out(9).find("max_error removed the last 9 isopoints. "));
   const auto strays = [](std::uint64_t count) {
     return Message("strays",
                    {{"strays", count},
@@ -194,12 +196,14 @@ TEST(Message, OneIsNotMany)
                     {"z", 1000000}})
         .text();
   };
-  EXPECT_EQ("1 point lies 1e12 times as far out as most others and is left out: it is "
-            "point 7 at (-1e+20, 0.123457, 1e+06).",
-            strays(1));
-  EXPECT_EQ("3 points lie 1e12 times as far out as most others and are left out: the "
-            "first is point 7 at (-1e+20, 0.123457, 1e+06).",
-            strays(3));
+  EXPECT_EQ(
+      "1 outlier is ignored, 1e12 times farther out than most points. It is point 7 "
+      "at (-1e+20, 0.123457, 1e+06).",
+      strays(1));
+  EXPECT_EQ(
+      "3 outliers are ignored, 1e12 times farther out than most points. The first is "
+      "point 7 at (-1e+20, 0.123457, 1e+06).",
+      strays(3));
 }
 
 TEST(Message, OneOfTwoMayBeEmpty)
@@ -215,9 +219,9 @@ TEST(Message, OneOfTwoMayBeEmpty)
         .text();
   };
   const std::string begin = "The level set at 0.5 has not converged after ",
-                    end = ": it still moves by 0.012 spacings per unit of time.";
+                    end = ": it moves by 0.012 spacings per unit of time.";
   EXPECT_EQ(begin + "1 step" + end, evolved(1, true));
-  EXPECT_EQ(begin + "200 steps" + end + " It ended at mu 0.26, where 10 was chosen.",
+  EXPECT_EQ(begin + "200 steps" + end + " It ended at mu 0.26, not 10.",
             evolved(200, false));
 }
 
@@ -248,16 +252,19 @@ TEST(Message, NumbersHaveTheDigitsThatTheTextAsksFor)
                {{"rounding", rounding}, {"spacings", spacings}, {"spacing", spacing}})
         .text();
   };
-  EXPECT_EQ("Coordinates of single points far from the others are rounded to float by "
-            "up to 0.031, 12 times the distance between neighbours (about 0.0026).",
+  EXPECT_EQ("Float rounding moves single distant points by up to 0.031, 12 times the "
+            "distance between neighbours (about 0.0026).",
             rounded(0.03125, 12.4, 0.00255));
-  EXPECT_EQ("Coordinates of single points far from the others are rounded to float by "
-            "up to 5.1e+02, 1.2e+02 times the distance between neighbours (about 4).",
-            rounded(512.0, 124.0, 4.0)); // whole ones as well
+  EXPECT_EQ(
+      "Float rounding moves single distant points by up to 5.1e+02, 1.2e+02 times the "
+      "distance between neighbours (about 4).",
+      rounded(512.0, 124.0, 4.0)); // whole ones as well
   const std::string gaps =
       Message("worse_in_gaps", {{"predicted", 2.0 / 3.0}, {"measured", 0.25}}).text();
-  EXPECT_TRUE(holds(gaps, "samples are above 0.667, ")) << gaps;
-  EXPECT_TRUE(holds(gaps, " above 0.25. Leave out fill_gaps.")) << gaps;
+  EXPECT_TRUE(holds(gaps, "median error is 0.667 between")) << gaps;
+  EXPECT_TRUE(
+      holds(gaps, "but 0.25 between measured samples across gaps. Try: no fill_gaps."))
+      << gaps;
 }
 
 /** Words are those of files: what they hold stays as it is. */
@@ -265,8 +272,8 @@ TEST(Message, WordsAreNotFilled)
 {
   for (const auto names : all_names) {
     EXPECT_EQ(
-        "The samples' field '{-where} {field|a|b}' is left out: isopoints have "
-        "one of that name.",
+        "The field '{-where} {field|a|b}' of the samples is not copied, because "
+        "isopoints have a field of that name.",
         Message("replaced_field", {{"field", "{-where} {field|a|b}"}}).text(names));
     EXPECT_EQ(
         "Leave out {-max-memory}: {it} | {is full.",
@@ -278,7 +285,7 @@ TEST(Message, BeginsWithWhatItIsAbout)
 {
   Message message("ready_splats", {});
   const std::string text = message.text();
-  EXPECT_EQ(0u, text.find("It holds splats"));
+  EXPECT_EQ(0u, text.find("The points are splats"));
   message.about = "my s.csv";
   for (const auto names : all_names)
     EXPECT_EQ("my s.csv: " + text, message.text(names));
@@ -292,7 +299,7 @@ TEST(Message, StreamsNameMembers)
   std::ostringstream out;
   out << Message("few_isopoints_left",
                  {{"isopoints", 2}, {"left", 1}, {"by_error", 1}, {"by_support", 0}});
-  EXPECT_TRUE(holds(out.str(), " max_error:")) << out.str();
+  EXPECT_TRUE(holds(out.str(), " max_error.")) << out.str();
 }
 
 TEST(Message, TextsAreMessages)
@@ -321,7 +328,7 @@ refusalOf(const Message& message)
 TEST(Message, UnknownCodesAreRefused)
 {
   for (const char* const code : {"no_such_code", "", "STRAYS", "stray", "strayss"}) {
-    EXPECT_EQ("There is no message of the code '" + std::string(code) + "'.",
+    EXPECT_EQ("There is no message with the code '" + std::string(code) + "'.",
               refusalOf(Message(code, {{"strays", 1}})));
     EXPECT_THROW(IOError(code, {}), InvalidArgument);
   }
@@ -389,9 +396,8 @@ TEST(Message, ReportsKeepThem)
 TEST(MessageOfAnException, IsItsText)
 {
   const InvalidArgument error("derivatives_of_blocks", {{"field", "grad(f)"}});
-  const std::string begin =
-      "The derivatives in 'grad(f)' are not to be had from points "
-      "that are read block by block: leave out ";
+  const std::string begin = "The derivatives in 'grad(f)' are not available for points "
+                            "that are read block by block. Try: no ";
   EXPECT_EQ(begin + "max_memory.", error.what());
   EXPECT_EQ(begin + "max_memory.", error.message());
   EXPECT_EQ(Message("derivatives_of_blocks", {{"field", "grad(f)"}}),
@@ -410,9 +416,10 @@ TEST(MessageOfAnException, ComesThroughCopiesAndBases)
   }
   catch (const pcl_uvol::Exception& error) {
     EXPECT_EQ(message, error.asMessage());
-    EXPECT_EQ("list.pvd: Cannot read 'a.h5': particles chooses from snapshots, and "
-              "this is none that is known.",
-              std::string(error.what()));
+    EXPECT_EQ(
+        "list.pvd: Cannot read 'a.h5': particles requires a snapshot, and the file "
+        "is not a known snapshot.",
+        std::string(error.what()));
     const pcl_uvol::Exception copy = error;
     EXPECT_EQ(message, copy.asMessage());
     EXPECT_EQ(error.message(), copy.message());

@@ -201,8 +201,7 @@ TEST(Expressions, FieldsOfCellsAreNamed)
     catch (const InvalidArgument& error) {
       EXPECT_NE(error.message().find("There is no field 'EQPS'"), std::string::npos);
       EXPECT_NE(error.message().find(
-                    "The option cells reads data of cells instead: EQPS, b, c, d, e, "
-                    "f, g, h, ..."),
+                    "Try: cells for the cell data EQPS, b, c, d, e, f, g, h, ..."),
                 std::string::npos)
           << error.message();
     }
@@ -226,15 +225,15 @@ TEST(Expressions, WrongOnesAreMarked)
       {"sqrt(rho,u)", "too many arguments", 10},
       {"atan2(rho)", "too few arguments", 9},
       {"rho?1", "? and :", 4},
-      {"0<rho<1", "joined by &&", 5},
-      {"rho & u", "joined by &&", 4},
+      {"0<rho<1", "cannot be chained", 5},
+      {"rho & u", "A single & is not an operator", 4},
       {"\"rho", "quotation mark", 0},
       {"2*|rho", "bar is not closed", 2},
       {"rho[1]*2", "too large", 4},
-      {"rho[x]*2", "number from 0", 3},
+      {"rho[x]*2", "non-negative integer", 3},
       {"v*2", "'v' has 3 components", 0},
-      {"1+2", "names no field", 0},
-      {"grad(1)", "No field is derived", 0},
+      {"1+2", "does not name a field", 0},
+      {"grad(1)", "no field to derive", 0},
       {"2*grad(rho)", "'grad(rho)' has 3 components", 2},
       {"1+Q(rho)", "three components", 2},
       {"grad(v)", "one number", 0},
@@ -266,11 +265,11 @@ TEST(Expressions, LongAndDeepOnes)
   std::string bars = "u";
   for (int i = 0; i < 40; ++i)
     bars = "|" + bars + ",1|";
-  EXPECT_NE(errorOf(bars).find("stand in one another"), std::string::npos);
+  EXPECT_NE(errorOf(bars).find("are nested"), std::string::npos);
   std::string derived = "rho";
   for (int i = 0; i < 40; ++i)
     derived = "laplacian(" + derived + ")";
-  EXPECT_NE(errorOf(derived).find("stand in one another"), std::string::npos);
+  EXPECT_NE(errorOf(derived).find("are nested"), std::string::npos);
   // The line that is shown stays a line.
   const std::string message = errorOf(sum + "+nothing" + sum);
   EXPECT_LT(message.size() - message.find('\n'), 200u) << message;

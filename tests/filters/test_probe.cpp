@@ -141,7 +141,7 @@ TEST_F(VtkProbe, OutsideThereIsNoValueUnlessAskedFor)
   EXPECT_TRUE(std::isnan(arrayOf("density")->GetTuple1(0)));
   EXPECT_EQ(arrayOf("support")->GetTuple1(0), 7.0);
   ASSERT_EQ(listener_.warnings.size(), 1u);
-  EXPECT_NE(listener_.warnings[0].find("outside of the data"), std::string::npos);
+  EXPECT_NE(listener_.warnings[0].find("outside the data"), std::string::npos);
   probe_->ExtrapolateOn();
   probe_->Update();
   EXPECT_FALSE(std::isnan(arrayOf("density")->GetTuple1(0)));

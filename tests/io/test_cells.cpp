@@ -339,7 +339,7 @@ TEST_F(Cells, WhatHasNoneIsRefused)
   };
   writeFile(folder_ / "a.csv", "x,y,z\n1,2,3\n");
   EXPECT_NE(std::string::npos,
-            messageOf(folder_ / "a.csv").find("Cells can be chosen in files of VTK"));
+            messageOf(folder_ / "a.csv").find("Cells can only be read from VTK"));
   vtkNew<vtkPolyData> points;
   vtkNew<vtkPoints> places;
   places->InsertNextPoint(1.0, 2.0, 3.0);

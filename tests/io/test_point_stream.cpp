@@ -388,11 +388,11 @@ TEST(PointStream, PointsThatAreNotThere)
   pcl::PCLPointCloud2 block;
   EXPECT_EQ(stream.read(5, block), 0u);
   EXPECT_EQ(messageOf<InvalidArgument>([&] { stream.seek(11); }),
-            "There is no point 11 in a file of 10.");
+            "There is no point 11: the file has 10 points.");
   EXPECT_EQ(messageOf<InvalidArgument>([&] {
               stream.readRows({3, 10}, block);
             }),
-            "There is no point 10 in a file of 10.");
+            "There is no point 10: the file has 10 points.");
   EXPECT_THROW(stream.readRows({4, 3}, block), InvalidArgument);
   EXPECT_NO_THROW(stream.readRows({3, 3, 9}, block));
   EXPECT_EQ(block.width, 3u);

@@ -227,8 +227,9 @@ TEST(RankFiles, RefuseNamesInOnePieceAndNumbersInAnother)
   writeFile(folder / "a.csv", "x,y,z,hole\n0,0,0,1\n1,0,0,34873\n");
   writeFile(folder / "b.csv", "x,y,z,hole\n2,0,0,A-117\n3,0,0,34873\n4,0,0,B\n");
   for (const std::size_t ranks : {1, 2, 3})
-    expectComplaint("The field 'hole' holds names in the piece '" + folder / "b.csv" +
-                        "' and numbers in '" + folder / "a.csv" + "': join",
+    expectComplaint("The field 'hole' contains names in the piece '" +
+                        folder / "b.csv" + "' and numbers in '" + folder / "a.csv" +
+                        "'. Try: join",
                     complaintOf({folder / "a.csv", folder / "b.csv"}, ranks));
 }
 
@@ -240,8 +241,7 @@ TEST(RankFiles, RefuseWhatDoesNotFitTogether)
   setField(other, "label", std::vector<std::int32_t>(3));
   saveDataset(folder / "in_1.vtp", other);
   for (const std::size_t ranks : {1, 2, 5})
-    expectComplaint("have different fields: where the one has none, the other has "
-                    "label (int32); write",
+    expectComplaint("have different fields: none and label (int32). Try: write",
                     complaintOf({folder / "in_*.vtp"}, ranks));
   saveDataset(folder / "none.vtp", line(0, 0.0));
   expectComplaint("none.vtp has no points.", complaintOf({folder / "none.vtp"}, 2));

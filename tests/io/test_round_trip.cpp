@@ -199,10 +199,10 @@ TEST(RoundTrip, IntegersThatDoubleDoesNotHoldAreLeftOutOfPlyOnly)
     EXPECT_EQ(Message("inexact_fields_left_out",
                       {{"path", "a.ply"}, {"fields", 1}, {"names", "'id'"}}),
               losses[0]);
-    EXPECT_EQ("a.ply leaves out the field 'id': the format has no 64-bit integers, and "
-              "double does not hold its values exactly. Try: .vtp, .pcd or .csv to "
-              "keep it.",
-              losses[0].text());
+    EXPECT_EQ(
+        "a.ply omits the field 'id': the format has no 64-bit integers, and double "
+        "cannot represent its values. Try: .vtp, .pcd or .csv.",
+        losses[0].text());
     for (const char* const file : {"a.pcd", "a.vtp", "a.vtkhdf", "a.npz"}) {
       EXPECT_TRUE(describeLosses(file, dataset).empty());
       expectSameFields(dataset, roundTrip(dataset, {file, false}));

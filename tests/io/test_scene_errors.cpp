@@ -173,7 +173,7 @@ TEST_F(SceneErrors, ScenesThatDrawNothing)
 {
   for (const char* const text : {"# nothing\n", "size 1 1\nlight point 0 0 1\n"})
     EXPECT_EQ(messageOf<IOError>([&] { load(text); }),
-              "'" + path_ + "' draws nothing: it has no cloud, sphere or plane.");
+              "The scene '" + path_ + "' is empty: it has no cloud, sphere or plane.");
 }
 
 TEST_F(SceneErrors, CloudsThatCannotBeDrawn)
@@ -181,9 +181,9 @@ TEST_F(SceneErrors, CloudsThatCannotBeDrawn)
   writeFile(folder_ / "nan.csv", "x,y,z\nnan,0,0\nnan,1,0\n");
   expectError("size 1 1\n cloud nan.csv", "2:2: ");
   writeFile(folder_ / "bad.csv", splatTable("", {"!", "!"}));
-  expectError("cloud bad.csv", "1:1: none of the splats in 'bad.csv' is usable.");
+  expectError("cloud bad.csv", "1:1: no splat of 'bad.csv' is usable.");
   writeFile(folder_ / "one.csv", splatTable(",value", {",1"}));
-  expectError("cloud one.csv fit 0 0 0 1", "1:1: all points of 'one.csv' lie at one");
+  expectError("cloud one.csv fit 0 0 0 1", "1:1: all points of 'one.csv' are at one");
   expectError("cloud one.csv scale 1e-30 scale 1", "1:27: 'scale' is given twice.");
   writeFile(folder_ / "two.csv", splatTable(",value", {",1", ",nan"}));
   expectError("cloud two.csv color q", "1:21: There is no field 'q'");

@@ -65,9 +65,10 @@ TEST(Strays, AreLeftOutCountedAndNamed)
           "strays",
           {{"strays", 1}, {"first", 7}, {"x", -1e20f}, {"y", 1e20f}, {"z", 1.0f}}),
       report.warnings[0]);
-  EXPECT_EQ("1 point lies 1e12 times as far out as most others and is left out: it is "
-            "point 7 at (-1e+20, 1e+20, 1).",
-            report.warnings[0].text());
+  EXPECT_EQ(
+      "1 outlier is ignored, 1e12 times farther out than most points. It is point 7 "
+      "at (-1e+20, 1e+20, 1).",
+      report.warnings[0].text());
   const std::vector<float> many(1000, 3.4e38f);
   expectSame(expected, extract(withStrays(*cloud, many), settings, &report));
   EXPECT_EQ(1000u, report.getCount("strays"));

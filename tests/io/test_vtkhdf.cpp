@@ -387,7 +387,7 @@ TEST_F(VtkHdf, OtherTypesAreOneSentence)
   cells.cells = true;
   EXPECT_NE(std::string::npos, messageOf<InvalidArgument>([&] {
                                  loadDataset(path_, cells);
-                               }).find("files of VTK but .vtkhdf"));
+                               }).find("VTK (except .vtkhdf)"));
 }
 
 TEST_F(VtkHdf, DataOfCellsAreNamed)

@@ -233,10 +233,11 @@ TEST(LevelSetRobust, RefusesValuesWithoutASlope)
       ADD_FAILURE() << is_automatic;
     }
     catch (const InvalidArgument& refusal) {
-      EXPECT_STREQ("The values beside the isovalue 3 do not change from sample to "
-                   "sample: a level set goes by their slope. Extract the isosurface "
-                   "without smoothing.",
-                   refusal.what());
+      EXPECT_STREQ(
+          "The values near the isovalue 3 do not change between samples, but a level "
+          "set requires their slope. Try: extract the isosurface without "
+          "smoothing.",
+          refusal.what());
     }
   }
 }
@@ -297,7 +298,7 @@ TEST(LevelSetRobust, SaysWhyTheStartHasVanished)
                     {"starts_from_values", starts_from_values}})
         .text();
   };
-  EXPECT_NE(std::string::npos, describe(true).find("A larger mu"));
+  EXPECT_NE(std::string::npos, describe(true).find("a larger mu"));
   EXPECT_EQ(std::string::npos, describe(false).find("mu"));
   EXPECT_NE(std::string::npos, describe(false).find("outside"));
 }

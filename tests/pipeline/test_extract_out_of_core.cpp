@@ -357,7 +357,8 @@ TEST_F(OutOfCore, RefusesMoreAtOnePlaceThanFits)
   IsosurfaceParameters settings;
   settings.field = "intensity";
   settings.isovalues = {0.3};
-  expectSentence<pcl_uvol::InvalidArgument>([&] { extract(settings); }, "at one place");
+  expectSentence<pcl_uvol::InvalidArgument>([&] { extract(settings); },
+                                            "at one position");
 }
 
 TEST_F(OutOfCore, HasNothingToSayOfNothing)

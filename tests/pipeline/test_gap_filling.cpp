@@ -93,11 +93,10 @@ TEST(GapFilling, IsAdvisedAsOtherOptionsThatWereNotGiven)
     EXPECT_EQ(is_scaled ? 0.0 : 1.0, numberOf(*told, "scale"));
     EXPECT_EQ(1.0, numberOf(*told, "gaps"));
     const std::string text = told->text(ParameterNames::Options),
-                      advice = "is a guess. A hold-out test tells how good it is "
-                               "(-validate). ";
+                      advice = "not constrained elsewhere. Check it with -validate. "
+                               "Try: ";
     EXPECT_NE(std::string::npos,
-              text.find(advice + (is_scaled ? "-fill-gaps may help."
-                                            : "-scale or -fill-gaps may help.")))
+              text.find(advice + (is_scaled ? "-fill-gaps." : "-scale or -fill-gaps.")))
         << text;
   }
 }

@@ -155,7 +155,7 @@ TEST(Validation, SaysWhoIsBetterThanTheSurface)
   EXPECT_EQ(1.0, uvol_test::numberOf(better, "gaps"));
   const std::string options = better.text(ParameterNames::Options);
   EXPECT_LT(options.size(), 300u);
-  EXPECT_NE(std::string::npos, options.find(". -scale or -fill-gaps may "));
+  EXPECT_NE(std::string::npos, options.find(". Try: -scale or -fill-gaps."));
   parameters.fill_gaps = true; // what was given is not advised
   EXPECT_EQ(1.0, uvol_test::numberOf(warn(7, 3, 50)[0], "scale"));
   EXPECT_EQ(0.0, uvol_test::numberOf(warn(7, 3, 50)[0], "gaps"));

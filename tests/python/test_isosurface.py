@@ -95,7 +95,7 @@ def test_images_of_a_welded_mesh_close_it(tmp_path, run_tool):
     a, b, c = mesh["image_of"][mesh.triangles].T
     edges = {*zip(a, b), *zip(b, c), *zip(c, a)}
     assert len(edges) == 3 * len(mesh.triangles) and all((to, start) in edges for start, to in edges)
-    with pytest.raises(ValueError, match="Only a mesh in a box"):
+    with pytest.raises(ValueError, match="Only the mesh of a periodic box"):
         uvol.isosurface(samples, field="f", iso=0.3, periodic_mesh="weld")
     with pytest.raises(ValueError, match="weld"):
         uvol.isosurface(samples, field="f", iso=0.3, mesh=True, periodic=(1, 1, 1), periodic_mesh="sew")
@@ -211,7 +211,7 @@ def test_warnings_name_the_line_of_the_caller(ball):
     (dict(field="r", iso=1, outside="up"), ValueError, "lower, higher"),
     (dict(field="r", iso=1, scale=(1, 1)), ValueError, "scale has 2"),
     (dict(field="r", iso=1, rotate=(1, 1)), ValueError, "rotate has 2"),
-    (dict(field="r", iso=1, rotate=(0, 10, 20)), ValueError, "no steeper"),
+    (dict(field="r", iso=1, rotate=(0, 10, 20)), ValueError, "not be steeper"),
     (dict(field="r", iso=1, scale=np.eye(3), rotate=(0, 1, 0)), ValueError, "without rotate"),
     (dict(field="r", iso=1, scale=(1, 1, -1)), ValueError, "positive"),
     (dict(field="r", iso=1, scale="automatic"), ValueError, "scale is 'automatic'"),
@@ -471,7 +471,7 @@ def test_memory_that_is_not_there_is_a_memoryerror(run_python):
     ("uvol.voronoi(points, cells=1500)", r"A grid of 1500 x \d+ x \d+ cells needs 4\d GB"),
     ("uvol.empty(10**9, {'a': 'f8'})", "A cloud of 1000000000 points needs 20 GB"),
     ("uvol.Interpolator(points, {'a': points[:, 0]}).grid((1000, 1000, 1000))", "An array of 1000000000 places needs 24 GB"),
-    ("uvol.Samples(points).render(size=6000)", "a picture of 6000 x 6000 pixels"),
+    ("uvol.Samples(points).render(size=6000)", "an image of 6000 x 6000 pixels"),
 ])
 def test_memory_that_is_not_there_is_told_with_what_it_is_for(run_python, call, message):
     out = run_python(f"""

@@ -94,7 +94,7 @@ TEST_F(Labels, SelectPoints)
   EXPECT_NE(std::string::npos, wrong.err.find("did you mean 'A-11'")) << wrong.err;
   const auto order = run("convert holes.csv b.csv -where 'hole<A-12'");
   EXPECT_EQ(1, order.exit_code);
-  EXPECT_NE(std::string::npos, order.err.find("which = and != compare")) << order.err;
+  EXPECT_NE(std::string::npos, order.err.find("compared by = and !=")) << order.err;
 }
 
 TEST_F(Labels, MayHoldQuotationMarks)
@@ -122,7 +122,7 @@ TEST_F(Labels, AreCarriedToIsopointsAndWrittenByEveryFormat)
   ASSERT_EQ(1u, table.labels.count("hole"));
   EXPECT_GT(table.labels.at("hole").size(), 5u);
   const CommandResult told = run(iso);
-  EXPECT_NE(std::string::npos, told.err.find("holds numbers only")) << told.err;
+  EXPECT_NE(std::string::npos, told.err.find("stores numbers only")) << told.err;
   for (const char* const format : {"s.ply", "s.pcd"}) {
     const Dataset points =
         resultOf(std::string("isosurface holes.csv ") + format + " -iso 7", format);

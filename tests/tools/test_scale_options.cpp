@@ -112,7 +112,7 @@ TEST_F(ScaleOptions, RefuseWhatTheyCannotMean)
           std::pair("-scale 1,0,0,0,1,0,0,0,2 -rotate 0,0,0", "-rotate"),
           std::pair("-scale automatic", "-scale"),
           std::pair("-rotate 0,91,0", "0 to 90"),
-          std::pair("-rotate 0,10,20", "no steeper"),
+          std::pair("-rotate 0,10,20", "not be steeper"),
           std::pair("-rotate 0,10", "-rotate")}) {
       const auto result = runCommand(std::string(tool) + " " + in_ + " " +
                                      (folder_ / "out.csv") + " " + options + bad);

@@ -346,7 +346,7 @@ TEST_F(GrowingBalls, FoldersThatTakeNoFilesAreOneSentence)
                                  "' && TMPDIR=/nonexistent " PCL_UVOL_TOOL_DIR
                                  "/uvol_render 'o_{}.ply' 'p_{}.png'");
   EXPECT_EQ(1, result.exit_code);
-  EXPECT_NE(std::string::npos, result.err.find("/nonexistent takes no files"))
+  EXPECT_NE(std::string::npos, result.err.find("/nonexistent is not writable"))
       << result.err;
   EXPECT_FALSE(exists("p_0.png"));
 }

@@ -89,7 +89,8 @@ TEST_F(ClusterTool, BordersThatRunThroughGapsAreToldOf)
   for (const char* smoothing : {"", "-smoothing-length h"}) {
     const std::string told =
         run(attributes_ + "-cluster 1 -surface membership " + smoothing).err;
-    EXPECT_NE(std::string::npos, told.find("the border of the cluster runs")) << told;
+    EXPECT_NE(std::string::npos, told.find("The cluster border is not constrained"))
+        << told;
     EXPECT_EQ(std::string::npos, told.find("lines of samples")) << told;
     for (const char* option : {"-validate", "-fill-gaps", "-drop-bridged"})
       EXPECT_EQ(std::string::npos, told.find(option)) << told;
@@ -163,9 +164,11 @@ TEST_F(ClusterTool, TinyClustersGetASurfaceOrAClearAnswer)
   expectFailure("-cluster 0 -surface hull-distance", 1, "cluster");
   for (const char* surface : {"hull", "hull-distance"}) {
     const std::string option = std::string(" -surface ") + surface;
-    expectFailure("-cluster 0 -distance 0.5" + option, 1, "hull needs three points");
-    expectFailure("-cluster 1" + option, 1, "hull needs three points"); // two points
-    expectFailure("-cluster 1 -distance 2" + option, 1, "hull needs three points");
+    expectFailure(
+        "-cluster 0 -distance 0.5" + option, 1, "hull requires at least three");
+    expectFailure(
+        "-cluster 1" + option, 1, "hull requires at least three"); // two points
+    expectFailure("-cluster 1 -distance 2" + option, 1, "hull requires at least three");
   }
   const double ball = 4.0 / 3.0 * M_PI * 0.125;
   EXPECT_NEAR(

@@ -114,7 +114,7 @@ TEST_F(UvolInfo, ReportsTheSharesOfTheSampling)
   expectTold(mixed, {"sampling: all around 5", " %, lines 4", " (all around)\n"});
   for (const char* const text : {"0.4,0.4,0.4,1\n", "0.4,0.4,0.4,1\n0.4,0.4,0.4,2\n"}) {
     const auto single = runOn(header + text);
-    expectTold(single, {"sampling: one place, without a spacing\n"});
+    expectTold(single, {"sampling: one position, no spacing\n"});
     EXPECT_EQ(std::string::npos, single.out.find("distance to the nearest"));
   }
 }
@@ -125,9 +125,10 @@ TEST_F(UvolInfo, CountsPointsWhosePositionIsTheLargestFloat)
     const auto result =
         runOn("x,y,z,a\n0,0,0,1\n1,0,0,1\n0,1,0,1\n" + std::string(place) + ",0,0,1\n");
     expectTold(result, {"upper corner: 1 1 0", "non finite 1"});
-    expectTold(result,
-               {"1 point has a coordinate of 3.4e38 or more, which float does not "
-                "hold. It counts as a point without a position."});
+    expectTold(
+        result,
+        {"1 point has a coordinate of 3.4e38 or more, too large for float. It counts "
+         "as missing."});
   }
   const auto refused = runOn("x,y,z,a\n1e39,0,0,1\n2e39,0,0,1\n");
   EXPECT_EQ(1, refused.exit_code);

@@ -212,13 +212,14 @@ TEST_F(Isosurface, FiltersByErrorAndSupport)
 TEST_F(Isosurface, SaysWhichFieldOfTheSamplesIsLeftOut)
 {
   EXPECT_EQ(std::string::npos,
-            run(in_ + " " + out_ + " -field density -iso 15").err.find("left out"));
+            run(in_ + " " + out_ + " -field density -iso 15").err.find("not copied"));
   std::string csv = radialCsv(2000);
   csv.replace(csv.find("experiment"), 10, "error");
   uvol_test::writeFile(in_, csv);
   const auto result = run(in_ + " " + out_ + " -field density -iso 15");
   EXPECT_EQ(0, result.exit_code);
-  EXPECT_NE(std::string::npos, result.err.find("field 'error' is left out"))
+  EXPECT_NE(std::string::npos,
+            result.err.find("field 'error' of the samples is not copied"))
       << result.err;
 }
 

@@ -146,7 +146,7 @@ TEST_F(MeshTool, SaysWhereTrianglesAreBad)
   uvol_test::writeFile(in_, csv.str());
   const CommandResult result = run("-field f -iso 0 -mesh");
   EXPECT_EQ(0, result.exit_code) << result.err;
-  EXPECT_NE(std::string::npos, result.err.find("have an angle below 5 degrees"))
+  EXPECT_NE(std::string::npos, result.err.find("have angles below 5 degrees"))
       << result.err;
   EXPECT_EQ(std::string::npos,
             run("-field f -iso 0 -mesh -remesh none").err.find("5 degrees"));
@@ -161,7 +161,7 @@ TEST_F(MeshTool, StlTellsWhatItCannotHold)
   out_ = folder_ / "out.stl";
   const CommandResult result = run("-field f -iso 0.5");
   EXPECT_EQ(0, result.exit_code) << result.err;
-  EXPECT_NE(std::string::npos, result.err.find("STL holds single precision"))
+  EXPECT_NE(std::string::npos, result.err.find("STL has single precision"))
       << result.err;
 }
 

@@ -301,7 +301,7 @@ TEST_F(IsosurfaceMpi, SpeaksWithOneVoice)
   EXPECT_NE(std::string::npos, result.out.find("processes: 3"));
   EXPECT_EQ(result.out.find("isopoints per isovalue: 0\n"),
             result.out.rfind("isopoints per"));
-  EXPECT_NE(std::string::npos, result.err.find("it lies outside the range"));
+  EXPECT_NE(std::string::npos, result.err.find("it is outside the range"));
   EXPECT_EQ(1, std::count(result.err.begin(), result.err.end(), '\n')) << result.err;
   EXPECT_EQ(std::string::npos, result.out.find('\033'));
   EXPECT_EQ(std::string::npos, result.out.find("bytes")); // these are for -v

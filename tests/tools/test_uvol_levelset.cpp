@@ -86,11 +86,11 @@ TEST_F(LevelSetTool, RefusesNonsense)
   expectRefused("-iso 0 -mu 1.5", 2, "-mu takes auto or a number from 0 to 1");
   expectRefused("-iso 0 -mu much", 2, "-mu");
   expectRefused("-iso 0 -sphere 0,0,0,1 -box 0,0,0,1,1,1", 2, "Only one of -sphere");
-  expectRefused("-iso 0 -sphere 0,0,0,-1", 1, "radius above 0");
+  expectRefused("-iso 0 -sphere 0,0,0,-1", 1, "positive radius");
   expectRefused("-iso 0 -scheme cubic", 2, "-scheme");
   expectRefused("-iso 0 -k 5", 1, "at least 9");
   expectRefused("-iso 0 -band 1", 1, "at least 3 spacings");
-  expectRefused("-iso 17", 1, "does not part the values of torus");
+  expectRefused("-iso 17", 1, "does not separate the values of torus");
   expectRefused("-iso 0 -start phi", 1, "phi");
   expectRefused("-iso 0 -csv " + path("no/such/folder.csv"), 1, "folder.csv");
   expectRefused("-iso 0 -plot " + path("plot.jpg"), 1, "plot.jpg");
@@ -101,10 +101,9 @@ TEST_F(LevelSetTool, WritesPhiBesideEveryField)
   const auto result = run("-iso 0 -csv " + path("steps.csv") + " -plot " +
                           path("steps.png") + " -snapshots 5");
   ASSERT_EQ(0, result.exit_code) << result.err;
-  EXPECT_NE(std::string::npos,
-            result.out.find("as near to the true one as is expected after"));
+  EXPECT_NE(std::string::npos, result.out.find("at the smallest expected error after"));
   EXPECT_NE(std::string::npos, result.out.find("sampling: all around"));
-  EXPECT_NE(std::string::npos, result.out.find("automatic: the last of smaller"));
+  EXPECT_NE(std::string::npos, result.out.find("automatic: the last of a series"));
   const auto dataset = pcl_uvol::loadDataset(path("out.ply"));
   EXPECT_EQ(60000u, dataset.cloud.width);
   for (const char* name : {"x", "phi", "torus"})
@@ -144,7 +143,7 @@ TEST_F(LevelSetTool, SmoothIsosurfacesAreNearerToTheTruth)
 
 TEST_F(LevelSetTool, SaysThatSamplesLieOnLines)
 {
-  const std::string told = "lie between lines of samples or beside gaps";
+  const std::string told = "are between lines of samples or next to gaps";
   EXPECT_EQ(std::string::npos, run("-iso 0 -steps 1").err.find(told));
   uvol_test::TemporaryFolder own;
   ASSERT_EQ(0,

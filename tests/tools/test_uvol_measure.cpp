@@ -352,7 +352,7 @@ TEST_F(MeasureTool, OpenMeshesHaveNoVolume)
   const CommandResult result = runCommand("uvol_measure " + mesh_);
   EXPECT_EQ(0, result.exit_code);
   EXPECT_NE(std::string::npos, result.out.find("area 3 "));
-  EXPECT_NE(std::string::npos, result.out.find("open at 1 rim"));
+  EXPECT_NE(std::string::npos, result.out.find("open at 1 boundary loop"));
   EXPECT_NE(std::string::npos, result.err.find("enclose no volume"));
   EXPECT_TRUE(reportOf(mesh_)["surfaces"]["volume"].is_null());
 }

@@ -166,7 +166,7 @@ TEST_F(ProbeTool, OutsideThereIsNoValueUnlessAskedFor)
   const std::string far = "-field cubic -line 0.5,0.5,0.5,0.5,0.5,3 -n 11";
   const auto outside = run(far);
   EXPECT_EQ(0, outside.exit_code);
-  EXPECT_NE(std::string::npos, outside.err.find("lie outside of the data"));
+  EXPECT_NE(std::string::npos, outside.err.find("are outside the data"));
   const Values values = fieldOf(pcl_uvol::loadDataset(out_), "cubic");
   EXPECT_FALSE(std::isnan(values[0]));
   EXPECT_TRUE(std::isnan(values[10]));
@@ -241,7 +241,7 @@ TEST_F(ProbeTool, ConstantsHaveNoVariogram)
   const auto result =
       run("-field same -line 0.2,0.2,0.2,0.8,0.8,0.8 -n 5 -model kriging");
   EXPECT_EQ(0, result.exit_code);
-  EXPECT_NE(std::string::npos, result.err.find("there is no variogram")) << result.err;
+  EXPECT_NE(std::string::npos, result.err.find("it has no variogram")) << result.err;
   EXPECT_EQ(1, std::count(result.err.begin(), result.err.end(), '\n'));
   const auto points = pcl_uvol::loadDataset(out_);
   EXPECT_EQ(fieldOf(points, "same"), Values(5, 7.5));
@@ -386,7 +386,7 @@ TEST_F(ProbeTool, RefusesNonsense)
   expectFailure("-field wave -grid 8x8", 2, "-grid is one number");
   expectFailure("-field wave -grid 8 -box 0,0,0,-1,1,1", 1, "box of a grid");
   expectFailure("-field rho -grid 8", 1, "There is no field 'rho'");
-  expectFailure("-grid 8", 1, "Name the scalar field to use");
+  expectFailure("-grid 8", 1, "There are several scalar fields");
   expectFailure("-field wave,, -grid 8", 2, "-field has an empty name");
   expectFailure("-field wave -line 1,1,1,1,1,1", 1, "two different ends");
   expectFailure("-field wave -points " + in_ + " -validate 1", 2, "-validate");

@@ -341,7 +341,7 @@ TEST_F(ProjectTool, RefusesAttributesThatAreNone)
     expectFailure(std::string("-attributes ") + names, 2, "empty name");
   expectFailure("-attributes ''", 2, "-attributes");
   expectFailure("-attributes a,b,nope", 1, "There is no field 'nope'");
-  expectFailure("-attributes a,b,a", 1, "each counts once");
+  expectFailure("-attributes a,b,a", 1, "can be given once");
   expectFailure("-attributes '|a,b'", 1, "|a,b");
   expectFailure("-attributes '|a,nope|,b,c'", 1, "nope");
 }

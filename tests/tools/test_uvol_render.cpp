@@ -99,7 +99,7 @@ TEST_F(RenderTool, ColorsWithoutLightAreThoseOfTheMap)
       ++grey;
     }
   EXPECT_GT(grey, 128 * 128 / 4);
-  EXPECT_NE(std::string::npos, run("-size 128 -no-shading").err.find("is white"));
+  EXPECT_NE(std::string::npos, run("-size 128 -no-shading").err.find("are both white"));
   for (const char* seen :
        {"-silhouettes", "-features", "-background black", "-color normal_z"})
     EXPECT_EQ("", run(std::string("-size 128 -no-shading ") + seen).err) << seen;
@@ -305,7 +305,8 @@ TEST_F(RenderTool, TellsOfValuesThatHaveNoLogarithm)
     const auto result = runCommand(tool + in_ + " " + out_ +
                                    " -size 60 -view front -no-bar -color z -log");
     ASSERT_EQ(0, result.exit_code) << result.err;
-    EXPECT_NE(std::string::npos, result.err.find("of 5000 points, where they have no"))
+    EXPECT_NE(std::string::npos,
+              result.err.find("of 5000 points and have no logarithm"))
         << result.err;
     // The lower half is grey.
     int gray = 0, colourful = 0;

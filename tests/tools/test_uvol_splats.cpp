@@ -197,7 +197,7 @@ TEST_F(SplatsTool, RefusesFilesThatItCannotCover)
                        "property float y\nproperty float z\nproperty float nx\n"
                        "property float ny\nproperty float nz\nend_header\n"
                        "1 2 3 0 0 1\n1 2 3 0 0 1\n");
-  expectFailure(run(""), 1, "one place");
+  expectFailure(run(""), 1, "one position");
   EXPECT_EQ(countWith("-delta-abs 0.1"), 1u);
 }
 

@@ -29,10 +29,11 @@ TEST(VtkLibrary, IsLoadedOnlyForFilesThatNeedIt)
        {"uvol_isosurface in.pcd out.vtp -iso 0.1", "uvol_generate in.vti in.pcd"}) {
     const auto result = runCommand(without + line);
     EXPECT_EQ(1, result.exit_code) << line;
-    EXPECT_NE(std::string::npos,
-              result.err.find("The library for VTK, HDF5, NetCDF and text in pictures "
-                              "could not be loaded: it is not beside "
-                              "libpcl_uvol_io.so, or there is not enough memory.\n"))
+    EXPECT_NE(
+        std::string::npos,
+        result.err.find("The library for VTK, HDF5, NetCDF and text in images could "
+                        "not be loaded: it is not next to libpcl_uvol_io.so, or "
+                        "memory is exhausted.\n"))
         << result.err;
   }
   EXPECT_EQ((std::vector<std::string>{

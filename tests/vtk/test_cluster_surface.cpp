@@ -367,7 +367,7 @@ TEST(ClusterSurfaces, NameThePointThatLeavesNoHull)
     FAIL() << "a hull of two cells";
   }
   catch (const InvalidArgument& error) {
-    EXPECT_NE(std::string::npos, error.message().find("the point of index 7 lies"))
+    EXPECT_NE(std::string::npos, error.message().find("exclude point 7 ("))
         << error.message();
   }
 }
@@ -415,7 +415,8 @@ TEST(ClusterSurfaces, SayHowFineTheGridMustBe)
     ADD_FAILURE();
   }
   catch (const InvalidArgument& error) {
-    EXPECT_NE(std::string::npos, error.message().find("too small for cells of 0.02"))
+    EXPECT_NE(std::string::npos,
+              error.message().find("too small for grid cells of 0.02"))
         << error.message();
   }
 }

@@ -28,24 +28,24 @@ describe(const pcl_uvol::LevelSetSummary& summary,
   if (summary.steps.empty()) {
     facts.emplace_back(
         "level set" + of_isovalue,
-        std::string("none: smoothing is not expected to bring the surface "
-                    "nearer to the true one, so the field is taken as it is") +
-            (summary.smoothed ? " but for its outliers" : ""),
+        std::string("none: smoothing is not expected to reduce the error, so the "
+                    "field is used unchanged") +
+            (summary.smoothed ? " except for outliers" : ""),
         Fact::Members());
     return facts;
   }
   facts.emplace_back("mu" + of_isovalue,
                      text(summary.mu,
                           mu_is_automatic
-                              ? " (automatic: the last of smaller and smaller weights, "
-                                "each for a time; as -mu it smooths more)"
+                              ? " (automatic: the last of a series of decreasing "
+                                "weights; -mu with this value smooths more)"
                               : ""),
                      summary.mu);
   const auto& last = summary.steps.back();
   facts.emplace_back(
       "level set" + of_isovalue,
       text(!summary.converged ? "not converged"
-           : mu_is_automatic  ? "as near to the true one as is expected"
+           : mu_is_automatic  ? "at the smallest expected error"
                               : "converged",
            " after ",
            pcl_uvol::describeCount(summary.steps.size(), "step", "steps"),

@@ -40,8 +40,9 @@ describeSize(const PieceMeasures& surface, std::int64_t pieces)
   if (surface.rims == 0)
     text += ", volume " + describe(surface.volume);
   else
-    text +=
-        surface.triangles == 0 ? ", open" : ", open at " + plural(surface.rims, "rim");
+    text += surface.triangles == 0
+                ? ", open"
+                : ", open at " + plural(surface.rims, "boundary loop");
   text += ", " + plural(pieces, "piece");
   if (surface.genus)
     text += ", genus " + std::to_string(*surface.genus);
@@ -69,13 +70,13 @@ describeParts(const PieceMeasures& surface, const std::string& of, Facts& facts)
   for (const SurfaceFieldMeasures& field : surface.on_surface) {
     FactText mean;
     mean << field.mean;
-    add(field.name + " on it",
+    add(field.name + " on the surface",
         "mean " + mean.str() + ", integral " + describe(field.integral));
   }
   const auto describeBeyond = [&](std::size_t field) {
     FactText sum;
     if (field < surface.sums_beyond.size())
-      sum << ", of those beyond the isovalue " << surface.sums_beyond[field].sum;
+      sum << ", sum beyond the isovalue " << surface.sums_beyond[field].sum;
     return sum.str();
   };
   for (std::size_t i = 0; i < surface.inside.size(); ++i) {

@@ -57,7 +57,7 @@ describeSampling(const pcl_uvol::SamplingSummary& sampling)
       shares.begin(), shares.end(), [](double share) { return share > 0.0; });
   return {"sampling",
           is_known ? listShares(shares) + "; " + describeSpacing(sampling)
-                   : "one place, without a spacing",
+                   : "one position, no spacing",
           Fact::Members{{"isolated", {shares[0]}},
                         {"line", {shares[1]}},
                         {"sheet", {shares[2]}},

@@ -126,14 +126,13 @@ describeChoice(const pcl_uvol::ScaleChoice& choice)
   FactText text;
   text.precision(2);
   if ((choice.scale == 1.0f).all())
-    text << "1: no other one tells clearly more of " << choice.tested
-         << " samples left out";
+    text << "1: no other scale predicts the " << choice.tested
+         << " held-out samples clearly better";
   else
-    text << "from the field: the error at " << choice.tested
-         << " samples left out is that with 1 times " << choice.error_ratio
-         << "; distance explains " << std::round(100.0 * choice.explained)
-         << " % of differences, before " << std::round(100.0 * choice.explained_before)
-         << " %";
+    text << "from the field: the error at " << choice.tested << " held-out samples is "
+         << choice.error_ratio << " times that of scale 1; distance explains "
+         << std::round(100.0 * choice.explained) << " % of the differences, before "
+         << std::round(100.0 * choice.explained_before) << " %";
   return {"scale choice",
           text.str(),
           Fact::Members{{"error_ratio", {choice.error_ratio}},

@@ -33,43 +33,42 @@ describeErrors(const std::optional<pcl_uvol::ErrorSummary>& errors)
 }
 
 std::string
-describeShares(const char* what, const pcl_uvol::ClassShares& shares, std::size_t count)
+describeShares(const pcl_uvol::ClassShares& shares, std::size_t count)
 {
   FactText text;
   text.precision(3);
-  text << what << " right for " << 100.0 * shares.predicted << " % of " << count
-       << " (nearest sample " << 100.0 * shares.nearest << " %, always the same "
-       << 100.0 * shares.base << " %)";
+  text << 100.0 * shares.predicted << " % correct of " << count << " (nearest sample "
+       << 100.0 * shares.nearest << " %, majority class " << 100.0 * shares.base
+       << " %)";
   return text.str();
 }
 
-/** The hold-out test of one isovalue. */
+/** The cross-validation of one isovalue. */
 Facts
 describeValidation(const pcl_uvol::ValidationScore& score,
                    const std::string& of_isovalue)
 {
   FactText beyond;
   beyond.precision(3);
-  beyond << 100.0 * score.side_beyond_error << " % of " << score.beyond_error
-         << " on the right side";
+  beyond << 100.0 * score.side_beyond_error << " % correct of " << score.beyond_error;
   const auto number = [](auto value) {
     return Fact::Numbers{static_cast<double>(value)};
   };
   FactText near;
   near.precision(2);
-  near << ", "
+  near << "; "
        << 100.0 * static_cast<double>(score.covered) / static_cast<double>(score.tested)
-       << " % of all that were left out";
+       << " % of the held-out samples are near the surface";
   return {
-      Fact("left out near the surface" + of_isovalue,
-           score.covered == 0
-               ? "none of " + std::to_string(score.tested)
-               : describeShares("side", score.side, score.covered) + near.str())
+      Fact("held-out side" + of_isovalue,
+           score.covered == 0 ? "none of " + std::to_string(score.tested) +
+                                    " held-out samples is near the surface"
+                              : describeShares(score.side, score.covered) + near.str())
           .withoutJson(),
-      Fact("left out" + of_isovalue, describeShares("class", score.field, score.tested))
+      Fact("held-out class" + of_isovalue, describeShares(score.field, score.tested))
           .withoutJson(),
-      Fact("left out beyond the error" + of_isovalue,
-           score.beyond_error == 0 ? std::string("none") : beyond.str())
+      Fact("held-out side beyond the error" + of_isovalue,
+           score.beyond_error == 0 ? std::string("no samples") : beyond.str())
           .withoutJson(),
       Fact("validation" + of_isovalue,
            "",
@@ -96,10 +95,9 @@ describeGaps(const pcl_uvol::GapFilling& gaps)
   if (gaps.predicted == 0)
     text << "none filled: " << gaps.unfilled;
   else
-    text << gaps.predicted << " samples predicted, " << gaps.spacing
-         << " apart, up to the range " << gaps.range
-         << " of a spherical variogram (nugget " << gaps.nugget << ", partial sill "
-         << gaps.sill << ")";
+    text << gaps.predicted << " samples predicted by kriging, spacing " << gaps.spacing
+         << ", within the range " << gaps.range << " of a spherical variogram (nugget "
+         << gaps.nugget << ", partial sill " << gaps.sill << ")";
   const std::vector<Fact> members{{"predicted", static_cast<double>(gaps.predicted)},
                                   {"spacing", gaps.spacing},
                                   {"range", gaps.range},
@@ -109,7 +107,7 @@ describeGaps(const pcl_uvol::GapFilling& gaps)
   return {Fact("gaps", text.str()).withoutJson(), Fact("gaps", members)};
 }
 
-/** Triangles, pieces with their genus and rims, and the smallest angle. */
+/** Triangles, pieces with their genus and boundary loops, and the smallest angle. */
 Facts
 describeMesh(const pcl_uvol::IsosurfaceResult& result, bool is_measured)
 {
@@ -121,7 +119,8 @@ describeMesh(const pcl_uvol::IsosurfaceResult& result, bool is_measured)
       text << (isovalues.empty() ? "" : "; ") << piece.triangles << " triangles, genus "
            << piece.genus;
       if (piece.rims > 0)
-        text << ", " << pcl_uvol::describeCount(piece.rims, "rim", "rims");
+        text << ", "
+             << pcl_uvol::describeCount(piece.rims, "boundary loop", "boundary loops");
     }
     isovalues.push_back(piece.isovalue);
     triangles.push_back(piece.triangles);
