@@ -13,14 +13,20 @@ if [ "${1:-}" = run ]; then
   python3 docs/site/run_commands.py "$bin" --renew docs/start/*.md docs/how/*.md docs/guide/*.md docs/choose.md
 fi
 rm -rf build/docs
-mkdir -p build/docs/source/benchmarks
+mkdir -p build/docs/source/benchmarks/diary
 cp -r docs/. build/docs/source
 rm -r build/docs/source/site
 python3 docs/site/make_reference.py "$bin" build/docs/source
-# Pages link what they come from, for readers of the repository.
-find build/docs/source -name '*.md' -exec sed -i 's#\.\./tests/benchmarks/README\.md#benchmarks/diary.md#g' {} +
-# These name files of the repository, which are no pages.
-sed -E 's/\]\(\.\.?\/[^)]*\)/]/g' tests/benchmarks/README.md >build/docs/source/benchmarks/diary.md
+# The repository keeps the measurements beside the benchmarks, the site below benchmarks/.
+find build/docs/source -name '*.md' -exec sed -i 's#\.\./tests/benchmarks/README\.md#benchmarks/measurements.md#g
+  s#\.\./tests/benchmarks/diary/#benchmarks/diary/#g' {} +
+# Of their links, those to pages of docs/ stay. Others go to files that are not pages of the site: only their text stays.
+sed -E 's#\]\(\.\./\.\./docs/#](@#g; s#\[([^]]*)\]\(\.\.?/[^)]*\)#\1#g; s#\]\(@#](../#g' tests/benchmarks/README.md \
+  >build/docs/source/benchmarks/measurements.md
+for page in tests/benchmarks/diary/*.md; do
+  sed -E 's#\]\(\.\./README\.md#](@benchmarks/measurements.md#g; s#\]\(\.\./\.\./\.\./docs/#](@#g
+    s#\[([^]]*)\]\(\.\.?/[^)]*\)#\1#g; s#\]\(@#](../../#g' "$page" >"build/docs/source/benchmarks/diary/$(basename "$page")"
+done
 sed -E 's/\]\(\.\.?\/[^)]*\)/]/g' python/README.md >build/docs/source/guide/python.md
 mkdocs build --quiet --strict
 doxygen docs/site/Doxyfile

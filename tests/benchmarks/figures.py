@@ -113,23 +113,23 @@ def format_time(milliseconds):
 
 
 def list_accuracy():
-    for name, what in (("accuracy_radial", "a smooth field, 4,000,000 samples"),
+    for name, what in (("accuracy_radial", "smooth field, 4,000,000 samples"),
                        ("accuracy_waves", "waves of twenty spacings, 1,000,000 samples")):
         rows = load(name)["result"]
         yield (name, what, *(f"{largest_mean(rows, method):.2g}" for method in ("smooth", "linear", "marching_cubes")))
 
 
-# Row: its measurement, what is measured, what it is beside, and beginnings of the names of both benchmarks.
+# Row: its measurement, what is measured, what it is compared with, and beginnings of the names of both benchmarks.
 ROWS = {
     "nearest": ("nearest", "41 nearest of 4,000,000 samples at 54,982 isopoints, one thread", "FLANN", "uvolFinder",
                 "flannNearSurface"),
     "neighborhoods": ("neighborhoods", "neighbours of 1,000,000 samples", "CGAL's Delaunay triangulation with TBB",
                       "whole_job/uvol", "whole_job/cgal"),
-    "rendering": ("rendering", "picture of 544,000 points, 1024 x 1024, no graphics card", "VTK, the mere points",
+    "rendering": ("rendering", "image of 544,000 points, 1024 x 1024, no graphics card", "VTK, plain points",
                   "imageSpace", "vtkPointMapper"),
-    "rays": ("ray_tracing", "rays on 300,000 discs, 1200 x 1200, light and shadow, one thread", "Embree, one pass",
+    "rays": ("ray_tracing", "ray tracing of 300,000 splats, 1200 x 1200, light and shadow, one thread", "Embree, one pass",
              f"rayTracer/{DISCS}:0", f"embree/userGeometry/{DISCS}:0"),
-    "mirrored_rays": ("ray_tracing", "the same with four mirrorings, one thread", "Embree, one pass", f"rayTracer/{DISCS}:4",
+    "mirrored_rays": ("ray_tracing", "the same with four reflections, one thread", "Embree, one pass", f"rayTracer/{DISCS}:4",
                       f"embree/userGeometry/{DISCS}:4"),
     "voronoi": ("voronoi", "discrete Voronoi diagram, 10,000 points, 256³", "the thesis", "transform", None),
     "clusters": ("clusters", "clusters of 998,250 points, 6 attributes", "", None, None),
@@ -152,19 +152,19 @@ def list_times():
 
 
 def write_tables():
-    lines = ["Mean distance to the true surface, in spacings of the samples; the largest of three seeds.", "",
-             "| field | ours | thesis, along edges | marching cubes on a grid of as many exact values |",
+    lines = ["Mean distance to the true surface, in sample spacings; the largest of three seeds.", "",
+             "| field | pcl_uvol | isopoints on edges (thesis) | marching cubes on a grid with as many exact values |",
              "|---|---|---|---|"]
     for name, what, *figures in list_accuracy():
         lines.append(f"| {what} | " + " | ".join(figures) + " |")
     machines = sorted({load(name)["machine"] for name, *_ in ROWS.values()})
     dates = sorted({load(name)["date"] for name, *_ in ROWS.values()})
-    lines += ["", "Times on machines A, B and C of the diary, two virtual cores each, and how many times as long the peer takes; in the last run "
-              f"({dates[-1]}, {'; '.join(machines)}) other programs waited for the cores, as many as the load says, which lengthens all times "
-              "and disturbs the ratio of programs that use several threads.", "",
-              "| what | ours | beside | times as long | machine | last run |", "|---|---|---|---|---|---|"]
+    lines += ["", "Times on quiet machines A, B and C (see the measurements), two virtual cores each. The ratio says how many times as long the other "
+              f"library takes. The last run ({dates[-1]}, {'; '.join(machines)}) was on a busy machine. Its load is the number of programs that waited for "
+              "the cores. This lengthens all times, and disturbs ratios of programs with several threads.", "",
+              "| task | pcl_uvol | compared with | ratio | machine | ratio of the last run |", "|---|---|---|---|---|---|"]
     lines += ["| " + " | ".join(row) + " |" for row in list_times()]
-    lines += ["", "The commands, in this order; those of Google Benchmark with `--benchmark_format=json`:", ""]
+    lines += ["", "The commands, in this order. Those of Google Benchmark (`bench_...`) also need `--benchmark_format=json`:", ""]
     lines += [f"    {' && '.join(filter(None, (PREPARED.get(name), load(name)['command'])))}" for name in MEASUREMENTS]
     return "\n".join(lines)
 
