@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs a build into a prefix of its own and builds and runs a project that finds it there.
-# usage: run.sh BUILD_FOLDER [all]: the examples of the README; all: algorithms of PCL, windows and ranks as well
+# usage: run.sh BUILD_FOLDER [all]: the program of the quickstart; all: algorithms of PCL, windows and ranks as well
 set -euo pipefail
 source_dir=$(cd "$(dirname "$0")" && pwd)
 folder=$(mktemp -d)
@@ -20,14 +20,14 @@ if [ "${2:-}" = all ]; then
     test "$("$folder/build/ranks_consumer")" = "rank 0 of 1"
   fi
 fi
-# The project and the program of the README, as they are printed there.
-block() { sed -n "/^\`\`\`$1\$/,/^\`\`\`\$/p" "$source_dir/../../README.md" | sed '/^```/d'; }
-mkdir "$folder/readme"
-block cmake >"$folder/readme/CMakeLists.txt"
-block cpp >"$folder/readme/main.cpp"
-cmake -S "$folder/readme" -B "$folder/readme/build" -G Ninja -DCMAKE_PREFIX_PATH="$folder/prefix" -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE=-DNDEBUG
-cmake --build "$folder/readme/build"
-"$folder/readme/build/mine" | grep -E '^[1-9][0-9]* isopoints'
+# The project and the program of the quickstart, as they are printed there, in tabs.
+block() { sed -n "/^    \`\`\`$1\$/,/^    \`\`\`\$/p" "$source_dir/../../docs/quickstart.md" | sed '/^    ```/d; s/^    //'; }
+mkdir "$folder/quickstart"
+block cmake >"$folder/quickstart/CMakeLists.txt"
+block cpp >"$folder/quickstart/main.cpp"
+cmake -S "$folder/quickstart" -B "$folder/quickstart/build" -G Ninja -DCMAKE_PREFIX_PATH="$folder/prefix" -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE=-DNDEBUG
+cmake --build "$folder/quickstart/build"
+"$folder/quickstart/build/mine" | grep -E '^[1-9][0-9]* isopoints'
 "$folder/prefix/bin/uvol_isosurface" -version
 "$folder/prefix/bin/uvol" viewer -version
 test -s "$folder/prefix/share/man/man1/uvol_isosurface.1"
