@@ -10,7 +10,7 @@ bin=${PCL_UVOL_BIN:-build/release/bin}
 bash tools/install_dependencies.sh mkdocs mkdocs-material doxygen python3
 
 if [ "${1:-}" = run ]; then
-  python3 docs/site/run_commands.py "$bin" --renew docs/start/*.md docs/how/*.md docs/guide/*.md docs/howto/*.md
+  python3 docs/site/run_commands.py "$bin" --renew docs/*.md docs/start/*.md docs/how/*.md docs/guide/*.md docs/howto/*.md
 fi
 rm -rf build/docs
 mkdir -p build/docs/source/benchmarks/diary

@@ -82,7 +82,7 @@ printTools()
          "  uvol TOOL [arguments]  uvol isosurface star.csv star.ply -iso 0.1 is\n"
          "                         uvol_isosurface star.csv star.ply -iso 0.1\n"
          "  uvol TOOL -h           explains a tool, -h all with every option\n"
-         "  uvol --list-formats    tells what is read and written\n"
+         "  uvol --list-formats    lists the formats that are read and written\n"
          "  uvol --version         prints the version\n\nTools:\n";
   for (const std::string& name : listTools())
     std::cout << "  " << name
@@ -106,7 +106,7 @@ printFormats()
   using pcl_uvol::io::listSavedEndings;
   std::cout
       << "Points, read:    " << joined(listLoadedEndings())
-      << ", snapshots of Gadget;\n                 packed .gz .bz2 .zst; - is "
+      << ", snapshots of Gadget;\n                 packed .gz .bz2 .xz .zst; - is "
          "standard input"
       << "\nPoints, written: " << joined(listSavedEndings())
       << ", by many processes .pvtp\n"

@@ -112,11 +112,10 @@ run(int argc, char** argv)
   Options options(
       "uvol_compare",
       "a.ply b.ply [out.ply] [options]",
-      "Measures how far surfaces, meshes (ply vtp vtkhdf obj off stl) or points, are "
-      "apart "
-      "both ways, and how much the fields\ndiffer that both have. Writes a with the "
-      "field distance, negative inside of b, which uvol_render draws by\n-color "
-      "distance.");
+      "Measures the distances between two surfaces, each from the other, and the "
+      "differences of the fields that both have.\nSurfaces are meshes (ply vtp vtkhdf "
+      "obj off stl) or points. Writes a with the field distance, negative inside b. "
+      "Use uvol_render -color distance to draw it.");
   options.file("a", first);
   options.file("b", second);
   options.file("out", output, false);

@@ -202,11 +202,11 @@ run(int argc, char** argv)
 {
   Arguments arguments;
   std::string first, second;
-  std::string purpose = "Generates scattered samples: of an analytic field, of a "
-                        "volume (nrrd nhdr vti mha "
-                        "mhd) at random\npositions, or points spread evenly over a "
-                        "mesh (ply vtp vtkhdf obj off stl).\n\nFields, with "
-                        "isovalues that show them:";
+  std::string purpose =
+      "Generates scattered samples of an analytic field or of a "
+      "volume (nrrd nhdr vti mha mhd).\nOf a mesh (ply vtp vtkhdf "
+      "obj off stl) it generates points spread evenly.\n\nFields, with "
+      "isovalues that show them:";
   for (const auto& field : pcl_uvol::analyticFields()) {
     purpose += std::string("\n  ") + field.name + ": " + field.description + ", -iso ";
     for (std::size_t i = 0; i < field.isovalues.size(); ++i) {

@@ -71,9 +71,9 @@ struct Job {
       "Extracts the isosurface of a scalar field given at scattered points, as "
       "an oriented point cloud,\nor with -mesh as a closed triangle mesh.\nReads pcd "
       "ply csv txt vtk vtp vtu vts h5 nc, snapshots of Gadget and others (uvol "
-      "--list-formats), writes pcd ply vtp vtkhdf csv, "
-      "meshes as ply vtp vtkhdf "
-      "obj off stl."};
+      "--list-formats).\nWrites points as pcd ply vtp vtkhdf csv, and meshes as ply "
+      "vtp "
+      "vtkhdf obj off stl."};
   uvol_tools::ProgressBar bar;
   Report report;
   Facts facts;

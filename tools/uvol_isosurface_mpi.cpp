@@ -205,11 +205,14 @@ run(int argc, char** argv, pcl_uvol::Communicator& communicator)
       tool,
       "in.pvtp|in.vtp...|in.pcd out.pvtp -iso v[,v...] [options]",
       "Extracts the isosurface of a scalar field given at scattered points by many "
-      "processes, as\nmpirun -np 8 uvol_isosurface_mpi in.pcd out.pvtp -iso 0.5 does: "
-      "the isopoints of uvol_isosurface.\nEach process reads a part of one file (pcd "
-      "ply csv txt), or of the pieces of a pvtp or of\nseveral files, and writes a vtp "
-      "of the pvtp. Output as pcd ply vtp csv comes from the first one.\nNormals are "
-      "those of the fits, else along the edges. -threads is per process, 1 if absent.");
+      "processes, for example\nmpirun -np 8 uvol_isosurface_mpi in.pcd out.pvtp -iso "
+      "0.5. The isopoints are those of uvol_isosurface.\nEach process reads a part of "
+      "one file (pcd ply csv txt), or of the pieces of a pvtp or of several "
+      "files.\nEach "
+      "process writes a vtp of the pvtp. The first one writes pcd ply vtp "
+      "csv.\nNormals "
+      "are those of the fits, else along the edges. -threads is per process, 1 if "
+      "absent.");
   declare(options, arguments);
   if (!options.parse(argc, argv))
     return 0;

@@ -96,9 +96,9 @@ run(int argc, char** argv)
   Options options(
       "uvol_levelset",
       "in.pcd out.ply -iso v [options]",
-      "Smooths a noisy or unevenly sampled scalar field about an isosurface by a level "
-      "set on the samples, and writes it as the field phi: about the distance to the "
-      "surface, positive where values are higher, in the space that -scale stretches.");
+      "Smooths a noisy or unevenly sampled scalar field near an isosurface by a level "
+      "set on the samples.\nWrites the field phi: about the distance to the surface, "
+      "positive where values are higher,\nin the space that -scale stretches.");
   uvol_tools::PointJob job(options, "A level set");
   declare(options, job, arguments);
   if (!options.parse(argc, argv))

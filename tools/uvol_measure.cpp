@@ -444,11 +444,11 @@ run(int argc, char** argv, const uvol_tools::SeriesStep* step, MeasureSeries& se
       "uvol_measure",
       "surface-or-samples [out.csv] [options]",
       "Measures a mesh (ply vtp vtkhdf obj off stl), points with normals, or with -iso "
-      "the "
-      "isosurfaces of samples: area,\nvolume, centroid, axes, genus, integrals of "
-      "fields on the surface and inside, and the samples inside. Writes a\ntable as "
-      "csv pcd ply vtp, a row per isovalue. Of points genus and what is inside are not "
-      "known.");
+      "the isosurfaces of samples.\nReports area, volume, centroid, axes, genus, "
+      "integrals of fields on the surface and inside, and the samples inside.\nWrites "
+      "a "
+      "table as csv pcd ply vtp, a row per isovalue. Points have no genus and no "
+      "integrals inside.");
   declare(options, arguments);
   if (!options.parse(argc, argv))
     return 0;

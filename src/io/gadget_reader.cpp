@@ -154,7 +154,7 @@ listBlocks(const InputFile& file,
       if (name.bytes != 8 || file.getSize() - at < 24)
         throwUnreadable(path,
                         "the record at byte " + std::to_string(at) +
-                            " is no label of a block");
+                            " is not the label of a block");
       label.resize(4);
       file.read(name.offset, label.data(), label.size());
       label.erase(std::find_if(label.begin(),

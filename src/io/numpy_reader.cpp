@@ -171,7 +171,7 @@ NpyHeaderParser::takeType(const std::string& name)
       return {name, static_cast<std::uint8_t>(known.datatype), 1, type[0] == '>'};
   throwUnreadable(path_,
                   "the type " + quoteText(type) +
-                      " is none of integers and of reals with 4 or 8 bytes");
+                      " is not read: allowed are integers and reals with 4 or 8 bytes");
 }
 
 void

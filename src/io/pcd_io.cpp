@@ -143,12 +143,11 @@ PcdHeaderParser::take(std::string_view line, std::size_t number)
     else if (words.size() == 2 && words[1] == "binary_compressed")
       encoding_ = Encoding::Compressed;
     else
-      throwUnreadable(
-          path_, line_, "DATA is none of ascii, binary and binary_compressed");
+      throwUnreadable(path_, line_, "DATA must be ascii, binary or binary_compressed");
     return true;
   }
   else if (key != "VERSION" && key != "VIEWPOINT")
-    throwUnreadable(path_, line_, "this is no line of a PCD header");
+    throwUnreadable(path_, line_, "this is not a line of a PCD header");
   return false;
 }
 

@@ -205,8 +205,8 @@ PlyAsciiSource::readRecord(std::uint8_t* record)
       continue;
     }
     if (!parseNumber(text, property.datatype, record))
-      throwInLine(quoteText(text) + " is no number for the property " + property.name +
-                  " (" + plyTypeName(property.datatype) + ")");
+      throwInLine(quoteText(text) + " is not a number for the property " +
+                  property.name + " (" + plyTypeName(property.datatype) + ")");
     record += datatypeSize(property.datatype);
   }
   if (word != words_.size())

@@ -388,7 +388,7 @@ TextTable::checkColumn(const TextColumn& column, bool coordinate) const
     throwUnreadable(path_,
                     column.first_text_line,
                     quoteText(column.first_text) + " in column " +
-                        quoteText(column.name) + " is no number");
+                        quoteText(column.name) + " is not a number");
 }
 
 /** Where numbers were meant, the note tells which cell to mend. */

@@ -227,9 +227,9 @@ checkExists(const std::string& path, const std::string& file)
   std::error_code ignored; // of a name that is too long
   if (!is_name || !std::filesystem::exists(file, ignored))
     throwUnreadable(path,
-                    "there is no file " +
+                    "its data file " +
                         quoteText(std::filesystem::path(file).filename().string()) +
-                        " of its data");
+                        " does not exist");
 }
 
 void

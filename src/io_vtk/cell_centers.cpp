@@ -78,7 +78,8 @@ checkCorners(const std::string& path,
       if (end[0] != 0 || end[i + 1] < end[i] || end[i + 1] > corners)
         refuse("their corners overlap");
       if (types && least[types->GetValue(i)] < 0)
-        refuse("the type " + std::to_string(types->GetValue(i)) + " is none of VTK's");
+        refuse("the type " + std::to_string(types->GetValue(i)) +
+               " is not a type of VTK");
       if (types && end[i + 1] - end[i] < least[types->GetValue(i)])
         refuse("one has " + std::to_string(end[i + 1] - end[i]) + " corners");
     }

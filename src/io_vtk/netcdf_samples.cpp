@@ -134,7 +134,7 @@ SampleSpace::findInstances()
         }))
       throwUnreadable(file_->getPath(),
                       "it is damaged: " + quoteText(variable.name) +
-                          " does not tell which samples belong together");
+                          " does not define which samples belong together");
     samples_of_[instance] = samples >= 0 ? samples : own;
     (*instances_)[instance] = std::move(list);
   }

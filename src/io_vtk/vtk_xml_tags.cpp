@@ -44,8 +44,9 @@ TagCollector::takeNumbers(const std::string* text, std::array<double, N>& number
   for (std::size_t i = 0; i < N && valid; ++i)
     valid = parseNumber(words[i], numbers[i]);
   if (!valid)
-    throwUnreadable(
-        path_, quoteText(*text) + " is no list of " + std::to_string(N) + " numbers");
+    throwUnreadable(path_,
+                    quoteText(*text) + " is not a list of " + std::to_string(N) +
+                        " numbers");
 }
 
 Extent

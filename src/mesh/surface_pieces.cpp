@@ -43,11 +43,11 @@ findPieces(std::vector<Triangle>& triangles, std::size_t vertices)
   const HalfEdges edges(triangles, vertices);
   const ManifoldDefects& defects = edges.getDefects();
   if (defects.edges > 0 || defects.vertices > 0)
-    throw std::logic_error(
-        "The mesh has " + std::to_string(defects.edges) + " edges and " +
-        std::to_string(defects.vertices) +
-        " vertices at which it is no manifold: this is a defect of the program, please "
-        "report it together with the samples.");
+    throw std::logic_error("The mesh has " + std::to_string(defects.edges) +
+                           " edges and " + std::to_string(defects.vertices) +
+                           " vertices at which it is not a manifold: this is a defect "
+                           "of the program, please "
+                           "report it together with the samples.");
   DisjointSets sets(vertices);
   for (const Triangle& triangle : triangles) {
     sets.join(triangle[0], triangle[1]);

@@ -246,7 +246,7 @@ TEST(BadFiles, PlyHeaders)
            {"1 2 nan", "1 nan 3"}})
     EXPECT_NE(errorOf("t.ply", replaced(ascii_ply, from, to)), "") << to;
   EXPECT_NE(errorOf("t.ply", replaced(ascii_ply, "1 2 nan", "1 two 3"))
-                .find("line 15: 'two' is no number for the property y (int)"),
+                .find("line 15: 'two' is not a number for the property y (int)"),
             std::string::npos);
   EXPECT_NE(errorOf("b.ply", bigEndianPly(4000000000)).find("truncated"),
             std::string::npos);

@@ -261,7 +261,7 @@ TEST(TextTables, ManyNamesMayBeNumbers)
   EXPECT_EQ(load(namesInRows(2, 18)).labels.at("hole").size(), 3u);
   for (const auto& [letters, numbers] : {std::pair(2, 19), std::pair(1, 3)})
     EXPECT_NE(errorOf(namesInRows(letters, numbers))
-                  .find("line 2: 'A-117' in column 'hole' is no number"),
+                  .find("line 2: 'A-117' in column 'hole' is not a number"),
               std::string::npos);
   EXPECT_NE(errorOf("x,y,z\n1,2,3\n1,a,3\n1,b,3\n").find("'a' in column 'y'"),
             std::string::npos);
@@ -275,7 +275,7 @@ TEST(TextTables, ManySlipsInValuesAreRefused)
   std::string text = "x,y,z,cu\n";
   for (int i = 0; i < (1 << 16); ++i)
     text += "1,2,3," + std::to_string(i) + (i % 5 == 0 ? "\n1,2,3,low\n" : "\n");
-  EXPECT_NE(errorOf(text).find("line 3: 'low' in column 'cu' is no number"),
+  EXPECT_NE(errorOf(text).find("line 3: 'low' in column 'cu' is not a number"),
             std::string::npos);
 }
 
@@ -461,7 +461,7 @@ TEST(TextTables, Errors)
             std::string::npos);
   EXPECT_NE(errorOf("x,y,z\n1,2,3,4\n").find("line 2"), std::string::npos);
   EXPECT_NE(errorOf("x,y,z,a\n1,2,3,4\n1,2,3,four\n")
-                .find("line 3: 'four' in column 'a' is no number"),
+                .find("line 3: 'four' in column 'a' is not a number"),
             std::string::npos);
   EXPECT_NE(errorOf("x,y,z\n1,b,3\n").find("'b' in column 'y'"), std::string::npos);
   EXPECT_NE(errorOf("x,y,z\n1,1.5m,3\n"), "");

@@ -154,7 +154,7 @@ TEST_F(InputOptions, DoNotPredictTheStepToTheValueOutside)
   expectRefused("isosurface",
                 "out.ply -field t -iso 9 -fill-gaps -outside-value 0",
                 2,
-                "-fill-gaps goes without -outside-value");
+                "-fill-gaps cannot be combined with -outside-value");
 }
 
 } // namespace test_input_options

@@ -41,7 +41,7 @@ TEST(Uvol, ListsTheToolsWithWhatTheyDo)
         EXPECT_THAT(result.out, HasSubstr("\n  " + name.substr(5) + " ")) << name;
       }
     }
-  EXPECT_THAT(result.out, HasSubstr("Tells what files of samples"));
+  EXPECT_THAT(result.out, HasSubstr("Summarises files of samples"));
   EXPECT_EQ("", result.err);
 }
 

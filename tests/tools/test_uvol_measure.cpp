@@ -362,7 +362,7 @@ TEST_F(MeasureTool, RefusesWrongCommandLines)
   expectFailure("", 2, "-iso");
   expectFailure("-field rho -iso 0.1:0.5", 2, "0.1:0.5");
   expectFailure("-field rho -iso 0.1:0:1", 2, "0.1:0:1");
-  expectFailure("-field rho -iso 0.1:0.5:x", 2, "'x' is none");
+  expectFailure("-field rho -iso 0.1:0.5:x", 2, "'x' is not a number");
   expectFailure("-field rho -iso 0:0.5:5log", 2, "log");
   expectFailure("-field rho -iso 0.5 -png " + picture_, 2, "-iso two");
   expectFailure("-field rho -iso 0.5 -plot area", 2, "-png");

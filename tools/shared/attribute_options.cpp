@@ -151,7 +151,7 @@ readLabels(const pcl_uvol::CloudView& cloud, const std::string& field)
         std::abs(value) > std::numeric_limits<std::int32_t>::max())
       throw pcl_uvol::InvalidArgument(
           "The field " + field +
-          " has values that are no whole numbers: it holds no labels.");
+          " has values that are not integers: it does not hold labels.");
     labels[i] = static_cast<std::int32_t>(value);
   }
   return labels;

@@ -66,7 +66,7 @@ DensityOptions::addField(pcl_uvol::Dataset& dataset,
                          const std::array<double, 3>& periodic) const
 {
   if (length_ > 0.0 && !is_asked_for_)
-    throw UsageError("-density-length goes with -density.");
+    throw UsageError("-density-length requires -density.");
   if (!is_asked_for_)
     return;
   if (pcl_uvol::findField(dataset.cloud.fields, "sph_density") != nullptr)

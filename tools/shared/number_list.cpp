@@ -115,7 +115,7 @@ parseNumber(const std::string& option, const std::string& text)
   double value = 0.0;
   if (!parseWhole(text, value) || !std::isfinite(value))
     throw UsageError("-" + option + " takes numbers, and " + pcl_uvol::quoteText(text) +
-                     " is none.");
+                     " is not a number.");
   return value;
 }
 
@@ -173,7 +173,7 @@ parseBytes(const std::string& option, const std::string& text)
   if (!(bytes >= 1.0 && bytes < 1e18))
     throw UsageError("-" + option +
                      " takes a number of bytes, as in 1500M or 2G, and " +
-                     pcl_uvol::quoteText(text) + " is none.");
+                     pcl_uvol::quoteText(text) + " is not such a number.");
   return static_cast<std::uint64_t>(bytes);
 }
 

@@ -24,15 +24,15 @@ void
 PeriodicOption::check(bool is_turned) const
 {
   if (isAskedFor() && is_turned)
-    throw UsageError("-periodic goes without -rotate and a -scale of nine numbers: the "
-                     "sides of the box lie along x, y and z.");
+    throw UsageError("-periodic cannot be combined with -rotate or a -scale of nine "
+                     "numbers: the sides of the box are along x, y and z.");
   if (text_.empty() || text_ == "header")
     return;
   const std::vector<double> sides = parseNumbers("periodic", text_, 3);
   if (*std::min_element(sides.begin(), sides.end()) < 0.0 ||
       *std::max_element(sides.begin(), sides.end()) <= 0.0)
     throw UsageError(
-        "-periodic takes three sides from 0, at least one of them above, or "
+        "-periodic takes three non-negative sides, at least one of them above 0, or "
         "the word header.");
 }
 

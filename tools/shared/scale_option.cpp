@@ -71,8 +71,9 @@ ScaleOption::finish(const Options& options)
     if (is_found && std::count(scale_.begin(), scale_.end(), ',') == 8) {
       const auto numbers = parseNumbers("scale", scale_, 9);
       if (!angles_.empty())
-        throw UsageError("-scale with nine numbers has its axes: -rotate goes with "
-                         "three factors, auto or spacing.");
+        throw UsageError(
+            "-rotate requires a -scale of three factors, auto or spacing: one "
+            "of nine numbers has its own axes.");
       using Rows = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
       stretch_ = Stretch::ofMap(Eigen::Map<const Rows>(numbers.data()));
     }

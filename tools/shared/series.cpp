@@ -248,8 +248,8 @@ runAll(const char* tool, const Series& series, const RunFile& run)
                                                ? parseSnapshots(*series.snapshots)
                                                : series.input->findNumbers();
   if (numbers.empty())
-    throw UsageError("There is no file " + series.input->insert(0) +
-                     ", nor one with another number.");
+    throw UsageError("Cannot find " + series.input->insert(0) +
+                     " or a file with another number.");
   int exit_code = 0;
   std::size_t failed = 0;
   std::vector<ListedFile> written;

@@ -179,7 +179,7 @@ ViewOptions::parseLights()
     light.position =
         toVector(parseNumbers("lights", lights_text_.substr(begin, end - begin), 3));
     if (light.position.isZero())
-      throw UsageError("-lights takes directions, and 0,0,0 is none.");
+      throw UsageError("-lights takes directions, and 0,0,0 is not a direction.");
     lights_.push_back(light);
     begin = end + 1;
   }
@@ -203,7 +203,7 @@ ViewOptions::check(const Options& options, bool may_have_camera)
   if (!options.given("eye") && options.given("at") && !may_have_camera)
     throw UsageError("-at needs -eye.");
   if (!up_.empty() && toVector(up_).isZero(0.0))
-    throw UsageError("-up takes a direction, and 0,0,0 is none.");
+    throw UsageError("-up takes a direction, and 0,0,0 is not a direction.");
   colors_.check();
   figure_.check(options, size_.get());
   if (options.given("scale-bar") && isExaggerated() &&

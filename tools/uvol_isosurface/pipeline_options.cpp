@@ -167,30 +167,32 @@ PipelineOptions::checkCombinations(const Options& options) const
     throw UsageError("-scratch needs -max-memory.");
   if (options.given("max-memory") && needsAllSamples())
     throw UsageError(
-        "-max-memory goes without -density, -outside-value, -periodic, -smooth, "
+        "-max-memory cannot be combined with -density, -outside-value, -periodic, "
+        "-smooth, "
         "-where, -scale auto or spacing, -rotate, -validate, -fill-gaps, -mesh, "
-        "-measure, -neighbors voronoi or exact and derivatives as fields: they need "
+        "-measure, -neighbors voronoi or exact or derivatives as fields. They need "
         "all samples.");
   if (periodic.isAskedFor() && (std::isfinite(outside_value) ||
                                 options.given("validate") || parameters.fill_gaps))
     throw UsageError(
-        "-periodic goes without -outside-value, -validate and -fill-gaps: "
-        "there is no outside, images would tell what was left out, and what "
-        "kriging adds has none.");
+        "-periodic cannot be combined with -outside-value, -validate or -fill-gaps: "
+        "there is no outside, images would reveal held-out samples, and kriged "
+        "samples have no images.");
   if (std::isfinite(outside_value) && parameters.fill_gaps)
     throw UsageError(
-        "-fill-gaps goes without -outside-value: kriging would predict the "
+        "-fill-gaps cannot be combined with -outside-value: kriging would predict the "
         "step to it.");
   if (!parameters.mesh)
     return;
   if (!fits || parameters.isosurface.neighbors != NeighborSource::KdTree ||
       parameters.normals == NormalMethod::Pca)
     throw UsageError(
-        "-mesh is made of fits and of cells of the kd-tree: it goes without "
-        "-interpolation linear, -neighbors voronoi or exact and -normals pca.");
+        "-mesh cannot be combined with -interpolation linear, -neighbors voronoi or "
+        "exact, or -normals pca: it needs fits and cells of the kd-tree.");
   if (options.given("max-error") || parameters.drop_bridged)
-    throw UsageError("-mesh keeps all of its vertices: it goes without -max-error and "
-                     "-drop-bridged.");
+    throw UsageError(
+        "-mesh cannot be combined with -max-error or -drop-bridged: it keeps "
+        "all of its vertices.");
 }
 
 void

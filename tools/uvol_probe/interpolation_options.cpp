@@ -266,7 +266,7 @@ InterpolationOptions::validate(const pcl_uvol::Dataset& samples,
     if (!std::isnan(score.share))
       text << ", " << std::round(1000.0 * score.share) / 10.0
            << " % within their standard error";
-    text << ", at " << score.covered << " of " << score.tested << " samples left out";
+    text << ", at " << score.covered << " of " << score.tested << " held-out samples";
     of_fields.emplace_back(
         score.field,
         text.str(),
