@@ -1,0 +1,134 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Counts what is hard to read on pages and in messages: sentences of more than 30 words (28 in messages), paragraphs of
+more than 90 words, and words that only this project used. CONTRIBUTING.md has the style guide.
+
+usage: check_prose.py REPOSITORY [--write]
+
+README, entry pages, tutorials and messages must have none. Other files have a number in docs/site/prose.txt that may
+only fall; --write writes the present numbers there. Exit code 1 if there are more, and the findings are printed."""
+import pathlib
+import re
+import sys
+
+STRICT = ("README.md", "docs/index.md", "docs/install.md", "docs/quickstart.md", "docs/reading_a_report.md", "docs/start/",
+          "src/common/warning_texts.cpp", "src/common/error_texts.cpp")
+MOST_WORDS, MOST_IN_MESSAGES, MOST_IN_PARAGRAPH = 30, 28, 90
+PRIVATE = {
+    r"\b(is|are|was|were) told\b|\btells? (of|the|a|which|what|how|its|whether)\b": "report, list, predict",
+    r"\bwhat (lies|is left|they|it) ": "name the thing",
+    r"\b(stands?|stood) (in|at|beside|behind|for)\b": "is in, represents",
+    r"\bg(oes|o) (without|with|by)\b(?! the)": "cannot be combined with, requires, is based on",
+    r"\b(is|are) no (number|file|list|table|label|text|whole numbers|slips|times|clusters?|coordinates|steps)\b|\b(is|are) none\b":
+        "is not a",
+    r"\bsurer\b|\bsure of\b": "more certain, smaller standard error",
+    r"\bstray(s|ing)?\b": "outlier",
+    r"\bmend(s|ed|ing)?\b": "fix, correct",
+    r"\bunasked\b|\bnot to be had\b": "by default, not available",
+    r"\bsamples? (that (were|are) )?left out\b": "held-out samples",
+    r"\bbox(es)? that repeats?\b": "periodic box",
+    r"\balways (say(ing)? )?the same\b": "majority class",
+    r"\bguess(es|ed)?\b": "not constrained by the samples",
+    r"\bslips? past\b|\bhangs? together\b": "passes between, is connected",
+    r"\blooks? (away|to the)\b": "points, faces",
+}
+
+
+def plain(text):
+    """Markdown as its words: links are their texts, code is one word."""
+    text = re.sub(r"!?\[([^\]]*)\]\([^)]*\)", r"\1", re.sub(r"`[^`]*`", "code", text))
+    return re.sub(r"\s+", " ", text.replace("*", "").replace("_", " ")).strip()
+
+
+def sentences(text):
+    return re.split(r"(?<=[.!?:;])\s+(?=[\"'(A-Z0-9])", text)
+
+
+def count_words(text):
+    return len(re.findall(r"[A-Za-z0-9][\w'.-]*", text))
+
+
+def list_blocks(page):
+    """Line and text of every paragraph, item and row of a table; whether its length counts as that of a paragraph."""
+    block, start, is_code = [], 0, False
+    for number, line in enumerate(page.split("\n") + [""], 1):
+        if line.lstrip().startswith("```"):
+            is_code = not is_code
+            continue
+        text = line.strip()
+        begins = re.match(r"([-*+]|\d+\.)\s|\||#|>|<|===|!!!", text)
+        if block and (not text or begins or is_code):
+            yield start, plain(" ".join(block)), True
+            block = []
+        if is_code or not text or text.startswith("<") or re.fullmatch(r"[|:\- ]+", text):
+            continue
+        if text.startswith("|"):
+            for cell in text.strip("|").split("|"):
+                yield number, plain(cell), False
+            continue
+        if not block:
+            start = number
+        block.append(re.sub(r"^([-*+]|\d+\.)\s+", "", text))
+
+
+def judge(text, most):
+    found = [f"{count_words(sentence)} words: {sentence[:60]}..." for sentence in sentences(text)
+             if count_words(sentence) > most]
+    for pattern, instead in PRIVATE.items():
+        match = re.search(pattern, text, re.IGNORECASE)
+        if match:
+            found.append(f"'{match.group(0)}': {instead}")
+    return found
+
+
+def judge_page(text):
+    for line, block, is_paragraph in list_blocks(text):
+        if is_paragraph and count_words(block) > MOST_IN_PARAGRAPH:
+            yield line, f"paragraph of {count_words(block)} words"
+        for found in judge(block, MOST_WORDS):
+            yield line, found
+
+
+def longest(text):
+    """A message with the longer one of each pair of alternatives."""
+    inner = re.compile(r"\{(\w+)\|([^{}|]*)\|([^{}|]*)\}")
+    text = re.sub(r"\{-?([\w-]+)(:\d)?( [^{}|]*)?\}", "value", text)
+    while inner.search(text):
+        text = inner.sub(lambda match: max(match.group(2), match.group(3), key=count_words), text)
+    return text
+
+
+def judge_messages(text):
+    for row in re.finditer(r'\{"(\w+)",\s*((?:"(?:[^"\\]|\\.)*"\s*)+)\}', text):
+        message = "".join(re.findall(r'"((?:[^"\\]|\\.)*)"', row.group(2)))
+        for found in judge(longest(message), MOST_IN_MESSAGES):
+            yield text.count("\n", 0, row.start()) + 1, f"{row.group(1)}: {found}"
+
+
+def main():
+    root = pathlib.Path(sys.argv[1])
+    pages = [root / "README.md", root / "python/README.md", root / "CONTRIBUTING.md", *sorted((root / "docs").rglob("*.md"))]
+    tables = [root / "src/common" / name for name in ("warning_texts.cpp", "error_texts.cpp")]
+    findings = {str(path.relative_to(root)): list((judge_page if path in pages else judge_messages)(path.read_text()))
+                for path in pages + tables}
+    kept = root / "docs/site/prose.txt"
+    if "--write" in sys.argv:
+        kept.write_text("".join(f"{name} {len(found)}\n" for name, found in findings.items()
+                                if found and not name.startswith(STRICT)))
+    allowed = dict(line.rsplit(" ", 1) for line in kept.read_text().splitlines())
+    failed = False
+    for name, found in findings.items():
+        most = 0 if name.startswith(STRICT) else int(allowed.get(name, 0))
+        if len(found) > most:
+            failed = True
+            print(f"{name}: {len(found)} findings, and {most} are allowed.")
+            for line, text in found:
+                print(f"  {name}:{line}: {text}")
+        elif len(found) < most:
+            failed = True
+            print(f"{name}: {len(found)} findings, and docs/site/prose.txt has {most}: lower it with --write.")
+    sys.exit(failed)
+
+
+if __name__ == "__main__":
+    main()
