@@ -7,7 +7,8 @@ out, and below <!-- long: WHY --> as well, but with --long; commands in indented
 are refused.
 
 usage: run_commands.py BIN_FOLDER [--long] [--renew] PAGE...; --renew copies the pictures beside the pages
-The commands find the tools in PATH, the data sets in $PCL_UVOL_DATA, and the folder tools/ of the repository.
+The commands find the tools in PATH, the data sets in $PCL_UVOL_DATA, and the folders tools/ and examples/ of the
+repository. Without PCL_UVOL_DATA the pages whose commands use it are skipped; the exit status is then 77 (skipped).
 """
 import os
 import pathlib
@@ -20,7 +21,8 @@ import tempfile
 BLOCK = re.compile(r"^(?:<!-- (not run|long): [^\n]+ -->\n)?```sh\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 INDENTED = re.compile(r"\n\n {4}((?:uvol|cmake|mpirun)[ _].*)")
 PICTURE = re.compile(r"\]\((\.\./pictures/((?:[a-z]+/)?)([^)/]+\.png))\)")
-TOOLS = pathlib.Path(__file__).resolve().parents[2] / "tools"
+REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
+LINKED = ("tools", "examples")
 
 
 def run_page(page, bin_folder, flags):
@@ -34,7 +36,8 @@ def run_page(page, bin_folder, flags):
     left_out = "".join(commands for mark, commands in blocks if mark not in run)
     environment = dict(os.environ, PATH=f"{bin_folder}:{os.environ['PATH']}")
     with tempfile.TemporaryDirectory() as folder:
-        (pathlib.Path(folder) / "tools").symlink_to(TOOLS)
+        for name in LINKED:
+            (pathlib.Path(folder) / name).symlink_to(REPOSITORY / name)
         result = subprocess.run(["bash", "-c", script], cwd=folder, env=environment, capture_output=True, text=True)
         if result.returncode != 0:
             return f"{page}: a command failed: {result.stderr.strip()}"
@@ -52,17 +55,24 @@ def run_page(page, bin_folder, flags):
     return ""
 
 
+def needs_data_sets(page):
+    return any("PCL_UVOL_DATA" in commands for _, commands in BLOCK.findall(page.read_text()))
+
+
 def main():
     flags = [word for word in sys.argv[1:] if word.startswith("--")]
     words = [word for word in sys.argv[1:] if word not in flags]
     if len(words) < 2 or set(flags) - {"--long", "--renew"}:
         sys.exit(__doc__)
-    if not os.environ.get("PCL_UVOL_DATA"):
-        print("run_commands.py: PCL_UVOL_DATA does not name the folder of data sets.", file=sys.stderr)
-        sys.exit(77)  # which ctest takes as skipped
     bin_folder = pathlib.Path(words[0]).resolve()
-    failures = [run_page(pathlib.Path(page), bin_folder, flags) for page in words[1:]]
-    sys.exit("\n".join(filter(None, failures)) or 0)
+    pages = [pathlib.Path(word) for word in words[1:]]
+    skipped = [] if os.environ.get("PCL_UVOL_DATA") else [page for page in pages if needs_data_sets(page)]
+    failures = list(filter(None, (run_page(page, bin_folder, flags) for page in pages if page not in skipped)))
+    if skipped and not failures:
+        print("run_commands.py: PCL_UVOL_DATA does not name the folder of data sets. Skipped:", *skipped,
+              file=sys.stderr)
+        sys.exit(77)  # which ctest takes as skipped
+    sys.exit("\n".join(failures) or 0)
 
 
 if __name__ == "__main__":
