@@ -36,12 +36,12 @@ PRIVATE = {
 
 def plain(text):
     """Markdown as its words: links are their texts, code is one word."""
-    text = re.sub(r"!?\[([^\]]*)\]\([^)]*\)", r"\1", re.sub(r"`[^`]*`", "code", text))
+    text = re.sub(r"!?\[([^\]]*)\]\([^)]*\)", r"\1", re.sub(r"`[^`]*`", "CODE", text))
     return re.sub(r"\s+", " ", text.replace("*", "").replace("_", " ")).strip()
 
 
 def sentences(text):
-    return re.split(r"(?<=[.!?:;])\s+(?=[\"'(A-Z0-9])", text)
+    return re.split(r"(?<=[.!?])\s+(?=[\"'(A-Z0-9])|(?<=[:;])\s+", text)
 
 
 def count_words(text):
@@ -50,8 +50,12 @@ def count_words(text):
 
 def list_blocks(page):
     """Line and text of every paragraph, item and row of a table; whether its length counts as that of a paragraph."""
-    block, start, is_code = [], 0, False
+    block, start, is_code, was_blank = [], 0, False, True
+    page = re.sub(r"<!--.*?-->", lambda comment: "\n" * comment.group().count("\n"), page, flags=re.DOTALL)
     for number, line in enumerate(page.split("\n") + [""], 1):
+        if not block and was_blank and line.startswith("    ") and not is_code:
+            continue  # a block of code
+        was_blank = not line.strip()
         if line.lstrip().startswith("```"):
             is_code = not is_code
             continue
