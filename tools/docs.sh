@@ -27,7 +27,8 @@ for page in tests/benchmarks/diary/*.md; do
   sed -E 's#\]\(\.\./README\.md#](@benchmarks/measurements.md#g; s#\]\(\.\./\.\./\.\./docs/#](@#g
     s#\[([^]]*)\]\(\.\.?/[^)]*\)#\1#g; s#\]\(@#](../../#g' "$page" >"build/docs/source/benchmarks/diary/$(basename "$page")"
 done
-sed -E 's/\]\(\.\.?\/[^)]*\)/]/g' python/README.md >build/docs/source/guide/python.md
+sed -E 's#\]\(\.\./docs/#](@#g; s#\[([^]]*)\]\(\.\.?/[^)]*\)#\1#g; s#\]\(@#](../#g' python/README.md \
+  >build/docs/source/guide/python.md
 mkdocs build --quiet --strict
 doxygen docs/site/Doxyfile
 python3 docs/site/check_api.py build/docs/doxygen_warnings.txt

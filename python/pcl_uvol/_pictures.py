@@ -87,7 +87,7 @@ def pixel_sides(size):
         raise ValueError(f"size is {_parameters.shown(size)}: it must be a number of pixels, or width and height.")
     width, height = (_parameters.count(side, "size") for side in sides)
     if min(width, height) < 1:  # below, this would ask for the usual size
-        raise ValueError(f"Pictures have from 1 x 1 to 16384 x 16384 pixels, not {width} x {height}.")
+        raise ValueError(f"The image size {width} x {height} is not allowed: it must be 1 x 1 to 16384 x 16384 pixels.")
     return {"width": width, "height": height}
 
 

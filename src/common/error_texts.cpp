@@ -52,8 +52,7 @@ const MessageText error_rows[] = {
     {"no_coordinate_field",
      "There is no scalar field {axis}; the fields are {fields}."},
     {"no_scalar_field", "There is no scalar field; the fields are {fields}."},
-    {"several_scalar_fields",
-     "There are several scalar fields: {fields}. Name the field to use."},
+    {"several_scalar_fields", "Name one of the scalar fields: {fields}."},
     {"field_of_components",
      "The field '{field}' has {components} components. Use {field}[0] to "
      "{field}[{last}] for one component, or |{field}| for the length."},

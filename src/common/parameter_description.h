@@ -30,8 +30,8 @@ describeType(const T& value)
     return "float";
 }
 
-/** \brief The members that have a help text: a list of objects with their name, the name
- * that an option has, type, default and help. */
+/** \brief The members that have a help text: a list of objects with their name, the
+ * name that an option has, type, default and help. */
 template <typename Parameters>
 std::string
 writeDescription()

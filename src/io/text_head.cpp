@@ -98,25 +98,25 @@ private:
   void
   add(Line line)
   {
-    const bool is_comment = comment_signs.find(line.text[0]) != std::string_view::npos;
-    if (is_comment)
-      addComment(line.text);
-    else
+    // Below the first line, the signs that were used above it begin comments.
+    const std::string_view signs =
+        contents_.empty() ? comment_signs : std::string_view(head_.shape.comments);
+    if (signs.find(line.text[0]) == std::string_view::npos)
       contents_.push_back(std::move(line));
-    if (is_comment && contents_.empty())
+    else if (contents_.empty()) {
+      addComment(line.text);
       last_comment_line_ = line.behind.line;
+    }
   }
 
   /** Sea-Bird: "# name 0 = prDM: Pressure, Digiquartz [db]". */
   void
   addComment(const std::string& text)
   {
-    if (!contents_.empty())
-      return;
-    std::string& signs = head_.shape.comments;
-    if (signs.find(text[0]) == std::string::npos)
-      signs += text[0];
     const std::size_t length = text.compare(0, 2, "//") == 0 ? 2 : 1;
+    std::string& signs = head_.shape.comments;
+    if (length == 1 && signs.find(text[0]) == std::string::npos)
+      signs += text[0];
     std::string comment(trimmed(std::string_view(text).substr(length)));
     const std::size_t equal = comment.find('=');
     if (comment.compare(0, 5, "name ") == 0 && equal != std::string::npos) {

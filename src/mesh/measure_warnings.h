@@ -28,8 +28,8 @@ struct UnsurePieces {
   bool are_left_out = false;
 };
 
-/** \brief Warn where most vertices lie between lines of samples or beside gaps, as their
- * field `support` tells, if they have it. Those on caps do not count. */
+/** \brief Warn where most vertices lie between lines of samples or beside gaps, as
+ * their field `support` tells, if they have it. Those on caps do not count. */
 void
 warnOfSupport(const CloudView& vertices, Report& report);
 

@@ -174,7 +174,7 @@ finishIsosurface(const Dataset& samples,
       dropIsopoints(isopoints, edges, choice, parameters, known, report);
   if (!parameters.mesh) // which has counted vertices that are not on caps
     countSupports(isopoints,
-                  parameters.isosurface.interpolation != Interpolation::Linear,
+                  withErrors(parameters).interpolation != Interpolation::Linear,
                   report);
   const SurfaceGrounds examined = findGrounds(found.tally);
   const SurfaceGrounds own = examined.known > 0

@@ -114,11 +114,10 @@ TEST(ScalarField, Default)
                        {"alpha", Type::UINT8},
                        {"density", Type::FLOAT64}}),
             "density");
-  EXPECT_EQ(
-      messageOf<InvalidArgument>([] {
-        defaultOf({{"a", Type::INT16}, {"b", Type::INT16}});
-      }),
-      "There are several scalar fields: a (int16), b (int16). Name the field to use.");
+  EXPECT_EQ(messageOf<InvalidArgument>([] {
+              defaultOf({{"a", Type::INT16}, {"b", Type::INT16}});
+            }),
+            "Name one of the scalar fields: a (int16), b (int16).");
   EXPECT_NE(messageOf<InvalidArgument>([] { defaultOf({}); }).find("no scalar field"),
             std::string::npos);
   EXPECT_NE(messageOf<InvalidArgument>([] {

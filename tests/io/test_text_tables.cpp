@@ -148,6 +148,17 @@ TEST(TextTables, NumbersAsPeopleWriteThem)
   EXPECT_EQ((std::vector<double>{1.5, 2.5, 3.5, 9.0}), firstRowOf(places));
 }
 
+/** A sign of a comment may as well begin a name. */
+TEST(TextTables, NoRowIsTakenForAComment)
+{
+  for (const char* const head : {"name,x,y,z\n", "//name,x,y,z\n", "# c\nname,x,y,z\n"})
+    for (const char* const sign : {"/", "*", "!", "%"}) {
+      const std::string row = std::string(sign) + "a,0.5,2,3\n";
+      EXPECT_EQ(4u, load(head + row + row + "b,0.5,2,3\n" + row).cloud.width)
+          << head << row;
+    }
+}
+
 TEST(TextTables, HeadersThatDoNotFitAreRefused)
 {
   for (const char* const text : {"x,y,z\n1,2,3,4\n1,2,3,4\n",

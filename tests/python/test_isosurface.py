@@ -218,7 +218,7 @@ def test_warnings_name_the_line_of_the_caller(ball):
     (dict(field="r", iso=1, threads=-1), ValueError, "threads is -1"),
     (dict(field="r", iso=1, threads=1.5), TypeError, "threads is 1.5"),
     (dict(field="r", iso=1, normal_neighbors=1), ValueError, "at least 2"),
-    (dict(field="r", iso=1, max_error=-1), ValueError, "from 0"),
+    (dict(field="r", iso=1, max_error=-1), ValueError, "not negative"),
     (dict(field="r", iso=1, validate=1), ValueError, "1 fold"),
     (dict(field="r", iso=1, level_set={"speed": 1}), ValueError, "speed"),
     (dict(field="r", iso=1, level_set={"mu": object()}), ValueError, "parameter"),

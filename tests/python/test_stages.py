@@ -316,7 +316,7 @@ def test_info(ball):
 
 
 @pytest.mark.parametrize("call, error, message", [
-    (lambda b: uvol.level_set(*b, field="r", iso=[1, 2]), ValueError, "one isovalue"),
+    (lambda b: uvol.level_set(*b, field="r", iso=[1, 2]), ValueError, "one number"),
     (lambda b: uvol.level_set(*b, field="r", iso=0.3, mu=2), ValueError, "mu|weight"),
     (lambda b: uvol.level_set(*b, field="r", iso=0.3, speed=2), TypeError, "no keyword 'speed'"),
     (lambda b: uvol.level_set(*b, field="r", iso=0.3, flow="fast"), ValueError, "mean, relative"),

@@ -386,7 +386,7 @@ TEST_F(ProbeTool, RefusesNonsense)
   expectFailure("-field wave -grid 8x8", 2, "-grid is one number");
   expectFailure("-field wave -grid 8 -box 0,0,0,-1,1,1", 1, "box of a grid");
   expectFailure("-field rho -grid 8", 1, "There is no field 'rho'");
-  expectFailure("-grid 8", 1, "There are several scalar fields");
+  expectFailure("-grid 8", 1, "Name one of the scalar fields");
   expectFailure("-field wave,, -grid 8", 2, "-field has an empty name");
   expectFailure("-field wave -line 1,1,1,1,1,1", 1, "two different ends");
   expectFailure("-field wave -points " + in_ + " -validate 1", 2, "-validate");
