@@ -253,11 +253,11 @@ run(int argc, char** argv, uvol_tools::SeriesStep* step)
   Options options(
       "uvol_probe",
       "in.csv out.csv -points file|-line ...|-plane ...|-grid n [options]",
-      "Interpolates a field between scattered points, with its standard error.\nThe "
-      "field support classifies each value: 1 samples all around, 2 in a gap, 3 at the "
-      "border,\n5 samples do not determine the model, 6 no finite position, 7 outside "
-      "the data (no value: nan).\nWrites pcd ply vtp csv. Planes and grids can also be "
-      "vti vts nrrd mha.");
+      "Interpolates a field between scattered points, with its standard error. The "
+      "field support classifies\neach value: 1 samples all around, 2 gap, 3 border, 5 "
+      "underdetermined, 6 no finite position,\n7 outside the data (nan). Writes pcd "
+      "ply "
+      "vtp csv, and planes and grids also as vti vts nrrd mha.");
   declare(options, arguments);
   uvol_tools::declareSeries(options);
   if (!options.parse(argc, argv))

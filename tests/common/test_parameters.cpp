@@ -147,7 +147,7 @@ TEST(Parameters, NameWhatIsWrongInJson)
   EXPECT_EQ("The parameter isosurface.voronoi_cells is 4294967296: it must be a "
             "whole number from 0.",
             refusal(R"({"isosurface": {"voronoi_cells": 4294967296}})"));
-  EXPECT_NE(refusal(R"({"isosurfaces": {}})").find("there are isosurface, "),
+  EXPECT_NE(refusal(R"({"isosurfaces": {}})").find("are isosurface, "),
             std::string::npos);
 }
 

@@ -471,7 +471,7 @@ TEST(SurfaceMeasures, RefusesWhatIsNoSurface)
   shape.normals.assign(shape.places.size(), Eigen::Vector3d::Zero());
   refuses(shape, "No point");
   measures.setInputSamples(std::make_shared<Dataset>(shape.toDataset()));
-  refuses(shape, "none");
+  refuses(shape, "with triangles");
   measures.setInputSamples(nullptr);
   shape = box;
   shape.triangles[3][1] = 8;

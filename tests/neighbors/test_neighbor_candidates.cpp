@@ -201,7 +201,7 @@ TEST(VoronoiCandidates, RefuseCrowdsAndTellTheNumber)
     FAIL() << "no refusal";
   }
   catch (const pcl_uvol::InvalidArgument& error) {
-    EXPECT_NE(std::string::npos, std::string(error.what()).find("candidates"));
+    EXPECT_NE(std::string::npos, std::string(error.what()).find("too many candidate"));
   }
 }
 
