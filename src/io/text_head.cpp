@@ -98,15 +98,25 @@ private:
   void
   add(Line line)
   {
-    // Below the first line, the signs that were used above it begin comments.
-    const std::string_view signs =
-        contents_.empty() ? comment_signs : std::string_view(head_.shape.comments);
-    if (signs.find(line.text[0]) == std::string_view::npos)
+    if (!isComment(line.text))
       contents_.push_back(std::move(line));
     else if (contents_.empty()) {
       addComment(line.text);
       last_comment_line_ = line.behind.line;
     }
+  }
+
+  /** The first sign decides what comments begin with, beside #: a name in the first
+   * column may begin with any other one. */
+  bool
+  isComment(const std::string& text)
+  {
+    const std::string sign = text.substr(0, text.compare(0, 2, "//") == 0 ? 2 : 1);
+    if (contents_.empty() && first_sign_.empty() &&
+        comment_signs.find(text[0]) != std::string_view::npos)
+      first_sign_ = sign;
+    return sign == "#" || (!first_sign_.empty() && sign == first_sign_ &&
+                           (contents_.empty() || sign.size() == 1));
   }
 
   /** Sea-Bird: "# name 0 = prDM: Pressure, Digiquartz [db]". */
@@ -432,6 +442,7 @@ private:
   TextHead head_;
   std::vector<Line> contents_; ///< lines that are not comments
   std::size_t lines_ = 0, last_comment_line_ = 0;
+  std::string first_sign_;          ///< of comments
   std::string comment_;             ///< the last one above them
   std::vector<std::string> listed_; ///< names in comments
 };

@@ -26,10 +26,10 @@ struct TextHead {
 /** \brief Look at the first lines of a table.
  *
  * Names come from the line above the rows, or from a comment above numbers. Lines that
- * begin with #, %, !, * or / are comments; below the names, those with a sign that was
- * used above them, and #. Skipped with a note are: titles above the
- * names (a line that has another number of cells), units below them (a row without any
- * number), and a line with the number of rows. The first line may name the separator
+ * begin with # are comments, and those with the sign that the first line begins with,
+ * if that is %, !, *, / or //. Skipped with a note are: titles above the names (a line
+ * that has another number of cells), units below them (a row without any number), and a
+ * line with the number of rows. The first line may name the separator
  * ("sep=;"). Sea-Bird's files list names in comments ("# name 0 = prDM: Pressure"),
  * Tecplot's in VARIABLES: of their zones the first is read.
  * \param cursor at the begin of the text; comes back anywhere
