@@ -61,7 +61,6 @@ isFiller(const std::string& word)
                            "centroid",
                            "mid",
                            "midpoint",
-                           "cell",
                            "minus"};
   return words.count(word) > 0;
 }
@@ -198,6 +197,11 @@ splitIntoWords(const std::string& name)
       appendWord(word, words);
       word.clear();
     }
+  // "Cell Centroid: X", but not the index of a cell
+  if (std::find_if(words.begin(), words.end(), [](const std::string& word) {
+        return word.compare(0, 4, "cent") == 0;
+      }) != words.end())
+    words.erase(std::remove(words.begin(), words.end(), "cell"), words.end());
   // ParaView numbers components: "Points:0"
   if (words.size() == 2 && isFiller(words[0]) && words[1].size() == 1 &&
       words[1][0] >= '0' && words[1][0] <= '2')
@@ -231,8 +235,7 @@ findPrefixed(std::string_view name)
   if (name.size() != 2)
     return std::nullopt;
   const std::string word = lowerCase(name);
-  if (std::string_view("pr").find(word[0]) != std::string_view::npos &&
-      isLetter(word.substr(1)))
+  if (word[0] == 'p' && isLetter(word.substr(1)))
     return Axis{Prefixed, static_cast<std::size_t>(word[1] - 'x')};
   if (word[0] == 'x' && word[1] >= '1' && word[1] <= '3')
     return Axis{Numbered, static_cast<std::size_t>(word[1] - '1')};
@@ -392,6 +395,28 @@ describeColumns(System system,
   return columns;
 }
 
+/** Whether there are y1 and the like beside x1, as of corners, or triples of another
+ * letter that is not usual for vectors, as tx, ty, tz beside px. */
+bool
+hasOtherPlaces(const std::vector<std::string>& names)
+{
+  std::map<char, std::set<char>> axes; // by the letter before them
+  for (const std::string& name : names) {
+    const std::string word = lowerCase(trimmed(name));
+    if (word.size() != 2)
+      continue;
+    if ((word[0] == 'y' || word[0] == 'z') && word[1] >= '1' && word[1] <= '9')
+      return true;
+    if (isLetter(word.substr(1)))
+      axes[word[0]].insert(word[1]);
+  }
+  return std::any_of(axes.begin(), axes.end(), [](const auto& triple) {
+    return triple.second.size() == 3 &&
+           std::string_view("pvnafbuwmjeg").find(triple.first) ==
+               std::string_view::npos;
+  });
+}
+
 } // namespace
 
 std::optional<CoordinateColumns>
@@ -409,6 +434,8 @@ recognizeCoordinates(const std::vector<std::string>& names, bool on_map)
       return CoordinateColumns{*found, {}, {}, true};
   for (std::size_t i = 0; i < systems; ++i) {
     const auto system = static_cast<System>(i);
+    if (system >= Prefixed && hasOtherPlaces(names))
+      continue;
     if (const auto found = findAxes(system, candidates[i]))
       return describeColumns(system, *found, names);
   }
@@ -440,7 +467,9 @@ findPossibleCoordinate(const std::vector<std::string>& names)
       continue;
     if (parts.word == "e" || parts.word == "n")
       has_letter[parts.word == "e" ? 0 : 1] = true;
-    else if (parts.is_quantity ? isLetter(parts.word) : !listAxes(name, parts).empty())
+    else if (!isPressure(parts.word) && !findPrefixed(trimmed(name)) &&
+             (parts.is_quantity ? isLetter(parts.word)
+                                : !listAxes(name, parts).empty()))
       return name;
     if (has_letter[0] && has_letter[1])
       return name;

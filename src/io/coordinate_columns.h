@@ -41,7 +41,7 @@ isDownwards(const std::string& name);
  * - easting, northing and a vertical
  * - longitude, latitude and a vertical
  * - x, y, z with another ending in common, as x_kpch, y_kpch, z_kpch; a note says so
- * - px, py, pz, rx, ry, rz or x1, x2, x3; a note says so
+ * - px, py, pz or x1, x2, x3; a note says so
  *
  * Words of a vertical and of easting and northing are also those of German, French,
  * Spanish and Italian. On maps a pressure is a vertical, if there is no other.

@@ -299,6 +299,7 @@ private:
 
   std::size_t numbers_ = 0; ///< of a point
   Words words_;
+  std::string line_; ///< what they are parts of, where commas are between them
 };
 
 AsciiSource::AsciiSource(const std::string& path,
@@ -323,19 +324,21 @@ AsciiSource::nextWords()
                         std::to_string(next_ - 1) + " lines follow");
 }
 
-/** Numbers may have commas between them. */
+/** Numbers may have commas between them, all of them. */
 void
 AsciiSource::splitAtCommas()
 {
-  Words parts;
+  line_.clear();
   for (const std::string_view word : words_)
-    for (std::size_t at = 0; at < word.size();) {
-      const std::size_t end = std::min(word.find(',', at), word.size());
-      if (end > at)
-        parts.push_back(word.substr(at, end - at));
-      at = end + 1;
-    }
-  words_ = parts;
+    line_ += std::string(line_.empty() ? "" : " ") + std::string(word);
+  Words parts;
+  for (std::size_t at = 0; at <= line_.size();) {
+    const std::size_t end = std::min(line_.find(',', at), line_.size());
+    parts.push_back(trimmed(std::string_view(line_).substr(at, end - at)));
+    at = end + 1;
+  }
+  if (parts.size() == numbers_)
+    words_ = parts;
 }
 
 void

@@ -85,12 +85,18 @@ isMissing(std::string_view cell)
 bool
 parseCell(std::string_view cell, char decimal, double& value)
 {
-  const bool has_comma = decimal == ',' && cell.find(',') != std::string_view::npos;
+  const std::size_t point = cell.find(decimal);
   if (decimal == ',' && cell.find('.') != std::string_view::npos)
     return false; // thousands, dates
+  const bool has_comma = decimal == ',' && point != std::string_view::npos;
   if (!has_comma && parseNumber(cell, value))
     return true;
-  if (cell.empty() ||
+  const auto is_digit = [&](std::size_t at) {
+    return at < cell.size() && cell[at] >= '0' && cell[at] <= '9';
+  };
+  // A comma is followed by a digit; Fortran writes a point before its exponent.
+  if (point == std::string_view::npos || (has_comma && !is_digit(point + 1)) ||
+      cell.find(decimal, point + 1) != std::string_view::npos ||
       std::string_view("+-.,0123456789").find(cell[0]) == std::string_view::npos)
     return false;
   return (has_comma || cell.find_first_of("dD") != std::string_view::npos) &&

@@ -16,11 +16,8 @@ namespace pcl_uvol::io {
 
 namespace {
 
-/** Lines that are looked at: headers of instruments have some hundred. */
-constexpr std::size_t most_lines = 4096;
-
-/** Lines that are not comments, after which no title is looked for. */
-constexpr std::size_t most_titles = 64;
+/** Lines that are looked at but for comments. */
+constexpr std::size_t most_rows = 64;
 
 constexpr std::string_view comment_signs = "#%!*/";
 
@@ -61,7 +58,7 @@ hasTextOnly(const Cells& cells, char decimal)
   double ignored = 0.0;
   bool has_text = false;
   for (const std::string_view cell : cells) {
-    if (parseCell(cell, decimal, ignored))
+    if (parseCell(cell, decimal, ignored) || isBelow(cell, decimal, ignored))
       return false;
     has_text = has_text || !isMissing(cell);
   }
@@ -77,11 +74,18 @@ public:
       , rows_(path, cursor)
   {
     std::string_view text;
+    std::optional<Line> line; // which the next one tells more of
     for (FileCursor::Place place = cursor.tell();
-         contents_.size() < most_titles && lines_ < most_lines && cursor.nextLine(text);
-         place = cursor.tell(), ++lines_)
-      if (!trimmed(text).empty())
-        add({place, cursor.tell(), std::string(text)});
+         contents_.size() < most_rows && cursor.nextLine(text);
+         place = cursor.tell()) {
+      if (trimmed(text).empty())
+        continue;
+      if (line)
+        add(std::move(*line), text);
+      line = Line{place, cursor.tell(), std::string(text)};
+    }
+    if (line)
+      add(std::move(*line), "");
   }
 
   TextHead
@@ -96,9 +100,9 @@ public:
 
 private:
   void
-  add(Line line)
+  add(Line line, std::string_view next)
   {
-    if (!isComment(line.text))
+    if (contents_.empty() ? !isComment(line.text, next) : line.text[0] != '#')
       contents_.push_back(std::move(line));
     else if (contents_.empty()) {
       addComment(line.text);
@@ -106,17 +110,30 @@ private:
     }
   }
 
-  /** The first sign decides what comments begin with, beside #: a name in the first
-   * column may begin with any other one. */
+  /** Whether a line above the rows is a comment. Behind %, !, * and / a name may begin:
+   * then the line has as many cells as the next one. */
   bool
-  isComment(const std::string& text)
+  isComment(const std::string& text, std::string_view next)
   {
-    const std::string sign = text.substr(0, text.compare(0, 2, "//") == 0 ? 2 : 1);
-    if (contents_.empty() && first_sign_.empty() &&
-        comment_signs.find(text[0]) != std::string_view::npos)
-      first_sign_ = sign;
-    return sign == "#" || (!first_sign_.empty() && sign == first_sign_ &&
-                           (contents_.empty() || sign.size() == 1));
+    if (text[0] == '#' || text.compare(0, 2, "//") == 0)
+      return true;
+    if (comment_signs.find(text[0]) == std::string_view::npos)
+      return false;
+    if (text.size() == 1 ||
+        std::string_view(" \t#%!*/").find(text[1]) != std::string_view::npos)
+      return true;
+    findSeparator(text);
+    Cells own, below;
+    if (head_.shape.separator == TextRows::blanks)
+      return true;
+    try {
+      rows_.split(text, own);
+      rows_.split(next, below);
+    }
+    catch (const IOError&) { // quotes that do not end
+      return true;
+    }
+    return own.size() < 3 || own.size() != below.size();
   }
 
   /** Sea-Bird: "# name 0 = prDM: Pressure, Digiquartz [db]". */
@@ -124,9 +141,6 @@ private:
   addComment(const std::string& text)
   {
     const std::size_t length = text.compare(0, 2, "//") == 0 ? 2 : 1;
-    std::string& signs = head_.shape.comments;
-    if (length == 1 && signs.find(text[0]) == std::string::npos)
-      signs += text[0];
     std::string comment(trimmed(std::string_view(text).substr(length)));
     const std::size_t equal = comment.find('=');
     if (comment.compare(0, 5, "name ") == 0 && equal != std::string::npos) {
@@ -210,20 +224,28 @@ private:
     setSeparator(TextRows::blanks);
   }
 
-  /** Numbers as "0,25" where commas do not part the cells. */
+  /** Numbers as "0,25" where commas do not part the cells: no number has a point, and
+   * not all commas may be those of thousands. */
   void
-  findDecimal(std::size_t row)
+  findDecimal(std::size_t first)
   {
-    if (head_.shape.separator == ',')
+    if (head_.shape.separator == ',' || head_.decimal == ',')
       return;
+    bool has_fraction = false;
     double ignored = 0.0;
-    for (const std::string_view cell : cellsAt(row))
-      if (cell.find(',') != std::string_view::npos && !parseCell(cell, '.', ignored) &&
-          parseCell(cell, ',', ignored)) {
-        head_.decimal = ',';
-        head_.notes.push_back({"decimal_commas", {}});
-        return;
+    for (std::size_t row = first; row < contents_.size(); ++row)
+      for (const std::string_view cell : cellsAt(row)) {
+        const std::size_t point = cell.find(',');
+        if (cell.find('.') != std::string_view::npos && parseCell(cell, '.', ignored))
+          return;
+        if (point != std::string_view::npos && parseCell(cell, ',', ignored))
+          has_fraction = has_fraction || cell.size() != point + 4 ||
+                         trimmed(cell.substr(0, point)) == "0";
       }
+    if (!has_fraction)
+      return;
+    head_.decimal = ',';
+    head_.notes.push_back({"decimal_commas", {}});
   }
 
   void
@@ -287,8 +309,12 @@ private:
   namesAbove(std::size_t row) const
   {
     Cells names;
-    if (comment_.find('"') == std::string::npos)
+    try {
       rows_.split(comment_, names);
+    }
+    catch (const IOError&) { // a comment that is none of names
+      names.clear();
+    }
     if (names.size() != cellsAt(row).size() || !hasTextOnly(names, head_.decimal))
       names.clear();
     return names;
@@ -334,6 +360,22 @@ private:
     return std::nullopt;
   }
 
+  /** Whether a row has texts only, each of them above a number of the next row. */
+  bool
+  areUnits(std::size_t row, std::size_t count) const
+  {
+    const Cells units = cellsAt(row), numbers = cellsAt(row + 1);
+    if (units.size() != count || numbers.size() != count ||
+        !hasTextOnly(units, head_.decimal))
+      return false;
+    double ignored = 0.0;
+    for (std::size_t i = 0; i < count; ++i)
+      if (!isMissing(units[i]) && units[i] != "-" &&
+          !parseCell(numbers[i], head_.decimal, ignored))
+        return false;
+    return true;
+  }
+
   void
   readHeader(std::size_t first)
   {
@@ -352,18 +394,15 @@ private:
         setSeparator(separator);
     }
     const Cells cells = cellsAt(names);
+    findDecimal(names + 1);
     takeNames(cells, contents_[names].behind.line);
     std::size_t row = names + 1;
-    if (row + 1 < contents_.size() && cellsAt(row).size() == cells.size() &&
-        cellsAt(row + 1).size() == cells.size() &&
-        hasTextOnly(cellsAt(row), head_.decimal) &&
-        !hasTextOnly(cellsAt(row + 1), head_.decimal)) {
+    if (areUnits(row, cells.size())) {
       head_.notes.push_back({"skipped_units",
                              {{"line", contents_[row].behind.line},
                               {"units", shortenText(textAt(row))}}});
       ++row;
     }
-    findDecimal(row);
     begin(row);
     head_.shape.cells = cells.size();
   }
@@ -385,26 +424,43 @@ private:
            (textAt(row).find('"') != std::string::npos || !isNumbers(row));
          ++row)
       header += textAt(row) + ' ';
-    const std::string lower = lowerCase(header);
-    const std::size_t variables = lower.find("variables"), zone = lower.find("zone");
+    const std::string bare = withoutQuoted(lowerCase(header));
+    const std::size_t variables = bare.find("variables"), zone = bare.find("zone");
     if (variables == std::string::npos || row == contents_.size())
       return false;
-    if (lower.find("block") != std::string::npos)
+    const std::string of_zone = bare.substr(std::min(zone, bare.size()));
+    if (of_zone.find("block") != std::string::npos)
       throw IOError("tecplot_blocks", {{"path", printable(path_)}});
+    TextHead head;
     const std::string listed = header.substr(variables, zone - variables);
     for (std::size_t at = listed.find('"'); at != std::string::npos;
          at = listed.find('"', at)) {
       const std::size_t end = listed.find('"', at + 1);
       if (end == std::string::npos)
         return false;
-      head_.names.push_back(listed.substr(at + 1, end - at - 1));
+      head.names.push_back(listed.substr(at + 1, end - at - 1));
       at = end + 1;
     }
+    if (head.names.size() != cellsAt(row).size())
+      return false;
     begin(row);
+    head_.names = head.names;
     head_.line = contents_[row].place.line;
-    head_.shape.rows = countRows(lower.substr(std::min(zone, lower.size())));
+    head_.shape.rows = countRows(of_zone);
     head_.notes.push_back({"first_zone", {}});
-    return head_.names.size() == head_.shape.cells;
+    return true;
+  }
+
+  /** Blanks in the place of what is in quotes. */
+  static std::string
+  withoutQuoted(std::string text)
+  {
+    bool is_quoted = false;
+    for (char& c : text) {
+      is_quoted ^= c == '"';
+      c = is_quoted ? ' ' : c;
+    }
+    return text;
   }
 
   /** Of "nodes=1200", "n=1200" or "i=20, j=30, k=2". */
@@ -430,10 +486,16 @@ private:
     for (const char* const key : {"nodes", "n"})
       if (const std::uint64_t nodes = read(key))
         return nodes;
-    const std::uint64_t i = read("i");
-    const std::uint64_t all = i * std::max<std::uint64_t>(read("j"), 1) *
-                              std::max<std::uint64_t>(read("k"), 1);
-    return all > 0 ? all : std::numeric_limits<std::uint64_t>::max();
+    constexpr std::uint64_t unknown = std::numeric_limits<std::uint64_t>::max(),
+                            most = std::uint64_t(1) << 20; // along an axis
+    std::uint64_t all = read("i");
+    for (const char* const key : {"j", "k"}) {
+      const std::uint64_t more = std::max<std::uint64_t>(read(key), 1);
+      if (all > most || more > most)
+        return unknown;
+      all *= more;
+    }
+    return all > 0 ? all : unknown;
   }
 
   const std::string& path_;
@@ -441,8 +503,7 @@ private:
   TextRows rows_;
   TextHead head_;
   std::vector<Line> contents_; ///< lines that are not comments
-  std::size_t lines_ = 0, last_comment_line_ = 0;
-  std::string first_sign_;          ///< of comments
+  std::size_t last_comment_line_ = 0;
   std::string comment_;             ///< the last one above them
   std::vector<std::string> listed_; ///< names in comments
 };

@@ -299,6 +299,11 @@ TextTable::scan(bool keep)
     normals_->take(row);
     range_.add(point);
   }
+  if (shape_.rows != TextRows::Shape().rows && count_ < shape_.rows)
+    throwUnreadable(path_,
+                    "it is truncated: its zone promises " +
+                        std::to_string(shape_.rows) + " points, but only " +
+                        std::to_string(count_) + " follow");
 }
 
 /** Columns with numbers below limits are joined by columns of 1 where they are, and 0.
@@ -470,7 +475,9 @@ public:
       : SequentialSource(path, std::move(cursor), info)
       , rows_(path_, *cursor_)
   {
-    rows_.setShape(shape);
+    TextRows::Shape of_rows = shape;
+    of_rows.rows = TextRows::Shape().rows; // the count of records bounds them
+    rows_.setShape(of_rows);
     for (const auto& column : columns)
       columns_.push_back(
           {column.cell, column.factor, column.labels, column.decimal, column.is_flag});

@@ -183,7 +183,8 @@ unxzAll(Pipe& pipe)
 {
   lzma_stream stream = LZMA_STREAM_INIT;
   const std::unique_ptr<lzma_stream, void (*)(lzma_stream*)> end(&stream, lzma_end);
-  if (lzma_stream_decoder(&stream, UINT64_MAX, LZMA_CONCATENATED) != LZMA_OK)
+  constexpr std::uint64_t most_memory = std::uint64_t(1) << 30; // xz -9 takes 65 MB
+  if (lzma_stream_decoder(&stream, most_memory, LZMA_CONCATENATED) != LZMA_OK)
     throw std::bad_alloc();
   lzma_ret state = LZMA_OK;
   while (state != LZMA_STREAM_END) {

@@ -140,19 +140,20 @@ struct ListedFile {
   std::string path, time;
 };
 
-/** The file of a name in a list. A list that came from another machine may have paths
- * of that: then the file is beside the list. */
+/** The file of a name in a list. A list that came from another machine may have whole
+ * paths of that: then the file is beside the list. */
 std::string
-findListed(const std::filesystem::path& folder, const std::string& name)
+findListed(const std::filesystem::path& folder, std::string name)
 {
-  const std::filesystem::path listed = folder / name,
-                              beside =
-                                  folder / name.substr(name.find_last_of("/\\") + 1);
+  const bool is_whole = name[0] == '/' || name.find(":\\") == 1;
   std::error_code error;
-  return !std::filesystem::exists(listed, error) &&
-                 std::filesystem::exists(beside, error)
-             ? beside.string()
-             : listed.string();
+  if (!is_whole || std::filesystem::exists(name, error)) {
+    if (!std::filesystem::exists(folder / name, error))
+      std::replace(name.begin(), name.end(), '\\', '/');
+    return (folder / name).string();
+  }
+  const auto beside = folder / name.substr(name.find_last_of("/\\") + 1);
+  return std::filesystem::exists(beside, error) ? beside.string() : name;
 }
 
 std::vector<ListedFile>
@@ -193,7 +194,7 @@ countFolderBytes(const std::string& folder)
   namespace fs = std::filesystem;
   std::uint64_t bytes = 0;
   for (const std::string& name : listFolder(folder)) {
-    const std::string path = folder + '/' + name;
+    const std::string path = (fs::path(folder) / name).string();
     std::error_code error;
     if (fs::is_directory(fs::symlink_status(path, error)))
       bytes += countFolderBytes(path);

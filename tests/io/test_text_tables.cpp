@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // CSV and its relatives, and the real data sets.
+#include "io/point_stream.h"
 #include "random_dataset.h"
 #include "support/messages.h"
+#include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/exceptions.h>
 
 #include <filesystem>
@@ -94,7 +96,8 @@ TEST(TextTables, HeadsAsPeopleWriteThem)
   const std::vector<Wild> tables{
       {"sep=;\nx;y;z;f\n0.5;2;3;4\n", {}},
       {"sep=\t\nx\ty\tz\tf\n0.5\t2\t3\t4\n", {}},
-      {"% Device,AB12\n% \nx,y,z,f\n0.5,2,3,4\n% end\n", {}},
+      {"% Device,AB12\n% \nx,y,z,f\n0.5,2,3,4\n", {}},
+      {"# a\n// b c\nx y z f\n0.5 2 3 4\n", {}},
       {"% x y z f\n0.5 2 3 4\n", {}},
       {"/ survey\n/ x y z f\n0.5 2 3 4\n", {}},
       {"* Sea-Bird\n# nquan = 4\n# name 0 = x: Easting [m]\n# name 1 = y: N\n# name 2 "
@@ -157,6 +160,66 @@ TEST(TextTables, NoRowIsTakenForAComment)
       EXPECT_EQ(4u, load(head + row + row + "b,0.5,2,3\n" + row).cloud.width)
           << head << row;
     }
+}
+
+/** Tables that look a little like others. */
+TEST(TextTables, WhatIsNotSaidIsNotAssumed)
+{
+  const auto values = [](const std::string& text, const char* field) {
+    const Dataset read = load(text);
+    std::vector<double> found;
+    for (std::size_t i = 0; i < read.cloud.width; ++i)
+      found.push_back(valueOf(read, field, i));
+    return found;
+  };
+  using Values = std::vector<double>;
+  // Blanks behind commas, thousands, a pair of numbers.
+  EXPECT_EQ((Values{0.0, 0.5}), values("0, 0, 0\n0.5, 0.1, 0.2\n", "x"));
+  EXPECT_EQ(
+      1u, load("x\ty\tz\tpop\n1\t2\t3\t12,345\n2\t3\t4\t1,234\n").labels.count("pop"));
+  EXPECT_EQ((Values{1.5, 2.5}),
+            values("x;y;z;pair\n1.5;2.5;3.5;1,2\n2.5;2;3;3,4\n", "x"));
+  // Names that look like numbers of Fortran, rows that look like units.
+  EXPECT_EQ(1u, load("x,y,z,id\n1,2,3.5,1D1\n1,2,4,2D3\n").labels.count("id"));
+  EXPECT_EQ(3u, load("x,y,z,id\n,,,A\n1,2,4.5,B\n1,2,5,C\n").cloud.width);
+  // A sign before the first name.
+  EXPECT_EQ(3u, load("%id,x,y,z\nA,1,2,3.5\n%B,2,3,4\nC,4,4,5\n").cloud.width);
+  EXPECT_EQ(2u, load("/topic,x,y,z\n/odom,1,2,3.5\n/odom,2,3,4\n").cloud.width);
+  EXPECT_EQ((Values{3.0, 6.5}), values("# \"z\",\"y\",\"x\"\n1,2,3\n4,5,6.5\n", "x"));
+  // Corners, indices of cells, another vector.
+  EXPECT_EQ((Values{1.5}),
+            values("x1,y1,z1,x2,y2,z2,x3,y3,z3\n1.5,2.5,3.5,4,5,6,7,8,9\n", "x"));
+  EXPECT_EQ((Values{4.5}),
+            values("cell_x,cell_y,cell_z,x_m,y_m,z_m\n1,2,3,4.5,5.5,6.5\n", "x"));
+  EXPECT_EQ((Values{1.5}), values("tx,ty,tz,px,py,pz\n1.5,2.5,3.5,4,5,6\n", "x"));
+  EXPECT_EQ((Values{1.5}), values("a,b,c,pressure\n1.5,2.5,3.5,4\n", "x"));
+}
+
+TEST(TextTables, ZonesOfTecplot)
+{
+  const std::string head = "VARIABLES = \"x\", \"y\", \"z\", \"f\"\n";
+  const std::string rows = "0.5 2 3 4\n1 2 3 4\n2 2 3 4\n";
+  EXPECT_EQ(
+      3u,
+      load(head + "ZONE T=\"slice i=2 of n=9\", I=3, F=POINT\n" + rows, {}, "a.dat")
+          .cloud.width);
+  EXPECT_EQ(3u,
+            load("TITLE = \"variables of a block\"\n" + head + "ZONE I=3\n" + rows,
+                 {},
+                 "a.dat")
+                .cloud.width);
+  EXPECT_NE(std::string::npos, messageOf<IOError>([&] {
+                                 load(head + "ZONE I=4\n" + rows, {}, "a.dat");
+                               }).find("truncated"));
+  EXPECT_TRUE(load("variables x y z\n1 2.5 3 4\n", {}, "a.dat").notes.size() <= 1);
+  const TemporaryFolder folder;
+  writeFile(folder / "a.dat", head + "ZONE I=2\n" + rows);
+  PointStream stream(folder / "a.dat");
+  for (int pass = 0; pass < 2; ++pass) {
+    pcl::PCLPointCloud2 block;
+    stream.seek(0);
+    EXPECT_EQ(2u, stream.read(10, block));
+  }
 }
 
 TEST(TextTables, HeadersThatDoNotFitAreRefused)
