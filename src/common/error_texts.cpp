@@ -44,6 +44,7 @@ const MessageText error_rows[] = {
      "There are coordinates of {given} points, but the cloud has {points} points."},
     {"field_of_wrong_length",
      "The field '{field}' has {values} values for {points} points."},
+    {"field_exists", "The field '{field}' exists already. Try: rename it."},
     {"field_is_coordinate", "The field '{field}' is a coordinate."},
     {"unknown_datatype", "A field has the unknown type {type}."},
     {"unknown_field",
@@ -122,6 +123,7 @@ const MessageText error_rows[] = {
     {"neighbor_search_null", "The search method for nearest neighbours is null."},
 
     // interpolation
+    {"bad_smoothing_length", "A smoothing length must be a number from 0."},
     {"single_point_box",
      "The box of the grid is a single point. Try: another box ({-box})."},
     {"no_finite_sample", "No sample has a finite position."},
@@ -809,7 +811,6 @@ const MessageText error_rows[] = {
     {"unknown_numpy_type", "Fields cannot have the type {type}."},
     {"field_type_not_in_numpy",
      "NumPy has no type for the datatype {datatype} of a field."},
-    {"bad_smoothing_length", "A smoothing length must not be negative."},
     {"memory_for_picture",
      "There is not enough memory for an image of {width} x {height} pixels."},
     {"picture_without_splats", "No splat is usable."},

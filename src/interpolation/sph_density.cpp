@@ -3,16 +3,20 @@
 
 #include "common/scalar_field.h"
 #include "interpolation/kernel_sums.h"
+#include "neighbors/periodic_box.h"
+#include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace pcl_uvol {
 namespace {
 
+constexpr const char* density_name = "sph_density";
 constexpr const char* mass_names[] = {
     "MASS", "Masses", "Mass", "mass", "masses", "m", "mass_g", "mass_kg"};
 constexpr const char* length_names[] = {"HSML",
@@ -39,6 +43,38 @@ massOf(const ScalarField& field, const std::uint8_t* point)
 {
   const double mass = field.read(point);
   return std::isfinite(mass) && mass > 0.0 ? mass : 1.0;
+}
+
+/** How far the kernels of particles reach, where a length for all or a field tells; 0:
+ * not known. */
+double
+findKernelReach(const Dataset& dataset, double length)
+{
+  constexpr double kernel_end = 2.0; // of the cubic spline, in smoothing lengths
+  if (length > 0.0)
+    return kernel_end * length;
+  const std::string name = findSphFields(dataset.cloud.fields).length_field;
+  if (name.empty())
+    return 0.0;
+  const ScalarField field(dataset.cloud.fields, name);
+  double longest = 0.0;
+  for (std::size_t i = 0; i < dataset.cloud.width; ++i)
+    longest = std::fmax(longest,
+                        field.read(&dataset.cloud.data[i * dataset.cloud.point_step]));
+  return std::isfinite(longest) ? kernel_end * lengthFactorOf(name) * longest : 0.0;
+}
+
+void
+setSphDensity(Dataset& dataset, double length, unsigned threads, Report& report)
+{
+  const SphParameters fields = findSphFields(dataset.cloud.fields);
+  setField(dataset,
+           density_name,
+           computeSphDensity(viewOf(dataset.cloud),
+                             fields,
+                             {length, lengthFactorOf(fields.length_field)},
+                             threads,
+                             report));
 }
 
 } // namespace
@@ -105,6 +141,39 @@ computeSphDensity(const CloudView& cloud,
       densities[static_cast<std::size_t>(member)] =
           densities[samples.getInputIndex(merged.sample)];
   return densities;
+}
+
+void
+addSphDensity(Dataset& dataset,
+              double length,
+              unsigned threads,
+              Report& report,
+              const std::array<double, 3>& sides)
+{
+  if (!std::isfinite(length) || length < 0.0)
+    throw InvalidArgument("bad_smoothing_length", {});
+  if (findField(dataset.cloud.fields, density_name) != nullptr)
+    throw InvalidArgument("field_exists", {{"field", density_name}});
+  const StepTimer timer(report, "density");
+  const bool has_masses = !findSphFields(dataset.cloud.fields).mass_field.empty();
+  Report own; // whoever uses the samples counts them, and tells of the box
+  own.progress = report.progress;
+  if (isPeriodic(sides)) {
+    PeriodicReach reach;
+    reach.least = findKernelReach(dataset, length);
+    PeriodicSamples images = addPeriodicImages(
+        dataset,
+        cutAtWidestGap(dataset, findPeriodicBox(dataset, sides, own), threads),
+        reach,
+        threads,
+        own);
+    setSphDensity(images.samples, length, threads, own);
+    dataset = dropPeriodicImages(std::move(images), dataset);
+  }
+  else
+    setSphDensity(dataset, length, threads, own);
+  if (!has_masses)
+    report.warn("no_masses");
 }
 
 } // namespace pcl_uvol

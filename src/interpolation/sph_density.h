@@ -3,10 +3,12 @@
 #pragma once
 
 #include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/interpolation/interpolation_parameters.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -48,5 +50,24 @@ findSphFields(const std::vector<pcl::PCLPointField>& fields);
  * of which the cubic spline ends at 1.825742 (Dehnen and Aly 2012). */
 PCL_UVOL_EXPORTS double
 lengthFactorOf(const std::string& field);
+
+/** \brief Add the field sph_density to a dataset, of the fields of masses and lengths
+ * with usual names. Without masses it counts particles per volume, and warns of that.
+ *
+ * \param length one smoothing length of all particles, in units of length; 0: by the
+ * field, else by neighbours
+ *
+ * \param sides of the box that the samples repeat in, 0 along an axis for none
+ *
+ * \param report gets the step "density" and warnings
+ *
+ * \throws InvalidArgument for a length that is negative or not finite, if there is a
+ * field of that name, and as computeSphDensity does */
+PCL_UVOL_EXPORTS void
+addSphDensity(Dataset& dataset,
+              double length,
+              unsigned threads,
+              Report& report,
+              const std::array<double, 3>& sides = {});
 
 } // namespace pcl_uvol

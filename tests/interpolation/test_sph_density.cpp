@@ -172,4 +172,29 @@ TEST(SphDensity, OfAPlanetIsThatOfItsFile)
     EXPECT_NEAR(1.0, densities[i] / read(planet, "RHO", i), 0.01) << i;
 }
 
+TEST(SphDensity, IsAddedAsAFieldInABoxThatRepeats)
+{
+  Dataset lattice; // of 8 points a side, one apart
+  std::vector<double> xyz;
+  for (int i = 0; i < 512; ++i)
+    for (const int coordinate : {i % 8, i / 8 % 8, i / 64})
+      xyz.push_back(coordinate);
+  lattice.cloud = makeRecords({}, 512);
+  setCoordinates(lattice, xyz);
+  Dataset alone = lattice;
+  Report report;
+  addSphDensity(lattice, 1.2, 1, report, {8.0, 8.0, 8.0});
+  ASSERT_EQ(lattice.cloud.width, 512u);
+  for (std::size_t i = 0; i < 512; ++i)
+    EXPECT_NEAR(read(lattice, "sph_density", i), 1.0, 0.02) << i;
+  ASSERT_EQ(report.warnings.size(), 1u);
+  EXPECT_EQ(report.warnings[0].code, "no_masses");
+
+  addSphDensity(alone, 1.2, 1, report);
+  EXPECT_LT(read(alone, "sph_density", 0), 0.7);
+  EXPECT_THROW(addSphDensity(alone, 1.2, 1, report), InvalidArgument); // once only
+  for (const double length : {-1.0, std::nan("")})
+    EXPECT_THROW(addSphDensity(lattice, length, 1, report), InvalidArgument);
+}
+
 } // namespace test_sph_density

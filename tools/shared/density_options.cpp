@@ -1,16 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shared/density_options.h"
 
-#include "common/scalar_field.h"
 #include "interpolation/sph_density.h"
-#include "neighbors/periodic_box.h"
-#include <pcl_uvol/common/cloud_view.h>
-#include <pcl_uvol/common/exceptions.h>
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
-#include <utility>
 
 namespace uvol_tools {
 
@@ -41,24 +34,6 @@ DensityOptions::findBytes(double points) const
   return isAskedFor() ? sums * points : 0.0;
 }
 
-double
-DensityOptions::findReach(const pcl_uvol::Dataset& dataset) const
-{
-  constexpr double kernel_end = 2.0; // of the cubic spline, in smoothing lengths
-  if (length_ > 0.0)
-    return kernel_end * length_;
-  const std::string name = pcl_uvol::findSphFields(dataset.cloud.fields).length_field;
-  if (name.empty())
-    return 0.0;
-  const pcl_uvol::ScalarField field(dataset.cloud.fields, name);
-  double longest = 0.0;
-  for (std::size_t i = 0; i < dataset.cloud.width; ++i)
-    longest = std::fmax(longest,
-                        field.read(&dataset.cloud.data[i * dataset.cloud.point_step]));
-  return std::isfinite(longest) ? kernel_end * pcl_uvol::lengthFactorOf(name) * longest
-                                : 0.0;
-}
-
 void
 DensityOptions::addField(pcl_uvol::Dataset& dataset,
                          unsigned threads,
@@ -67,45 +42,8 @@ DensityOptions::addField(pcl_uvol::Dataset& dataset,
 {
   if (length_ > 0.0 && !is_asked_for_)
     throw UsageError("-density-length requires -density.");
-  if (!is_asked_for_)
-    return;
-  if (pcl_uvol::findField(dataset.cloud.fields, "sph_density") != nullptr)
-    throw pcl_uvol::InvalidArgument("There is a field sph_density already.");
-  const pcl_uvol::StepTimer timer(report, "density");
-  if (!pcl_uvol::isPeriodic(periodic))
-    return computeField(dataset, threads, report);
-  pcl_uvol::Report own; // whoever uses the box tells of it
-  own.progress = report.progress;
-  pcl_uvol::PeriodicReach reach;
-  reach.least = findReach(dataset);
-  auto images = pcl_uvol::addPeriodicImages(
-      dataset,
-      pcl_uvol::cutAtWidestGap(
-          dataset, pcl_uvol::findPeriodicBox(dataset, periodic, own), threads),
-      reach,
-      threads,
-      own);
-  computeField(images.samples, threads, report);
-  dataset = pcl_uvol::dropPeriodicImages(std::move(images), dataset);
-}
-
-void
-DensityOptions::computeField(pcl_uvol::Dataset& dataset,
-                             unsigned threads,
-                             pcl_uvol::Report& report) const
-{
-  const auto fields = pcl_uvol::findSphFields(dataset.cloud.fields);
-  pcl_uvol::Report own; // the samples are counted by whoever uses them
-  own.progress = report.progress;
-  const auto densities = pcl_uvol::computeSphDensity(
-      pcl_uvol::viewOf(dataset.cloud),
-      fields,
-      {length_, pcl_uvol::lengthFactorOf(fields.length_field)},
-      threads,
-      own);
-  pcl_uvol::setField(dataset, "sph_density", densities);
-  if (fields.mass_field.empty())
-    report.warn("no_masses");
+  if (is_asked_for_)
+    pcl_uvol::addSphDensity(dataset, length_, threads, report, periodic);
 }
 
 } // namespace uvol_tools

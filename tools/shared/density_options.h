@@ -38,16 +38,6 @@ public:
   findBytes(double points) const;
 
 private:
-  /** How far the kernels of the samples reach, where the option or a field tells; 0:
-   * not known. */
-  double
-  findReach(const pcl_uvol::Dataset& dataset) const;
-
-  void
-  computeField(pcl_uvol::Dataset& dataset,
-               unsigned threads,
-               pcl_uvol::Report& report) const;
-
   bool is_asked_for_ = false;
   double length_ = 0.0;
 };

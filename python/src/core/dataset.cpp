@@ -14,7 +14,6 @@
 #include <pcl_uvol/expressions/derived_fields.h>
 
 #include <array>
-#include <cmath>
 #include <cstring>
 #include <pybind11/stl.h>
 #include <string>
@@ -155,23 +154,12 @@ withDensity(const DatasetPtr& dataset,
             unsigned threads,
             const py::object& progress)
 {
-  if (!std::isfinite(length) || length < 0.0)
-    throw InvalidArgument("bad_smoothing_length", {});
   auto result = std::make_shared<Dataset>(*dataset);
-  const SphParameters fields = findSphFields(dataset->cloud.fields);
   Report report;
   runInterruptibly(progress, [&](const ProgressCallback& callback) {
     report.progress = callback;
-    setField(*result,
-             "sph_density",
-             computeSphDensity(viewOf(dataset->cloud),
-                               fields,
-                               {length, lengthFactorOf(fields.length_field)},
-                               threads,
-                               report));
+    addSphDensity(*result, length, threads, report);
   });
-  if (fields.mass_field.empty())
-    report.warn("no_masses");
   return py::make_tuple(result, toDict(report));
 }
 
