@@ -32,9 +32,11 @@ const MessageText warning_rows[] = {
      "is used. Try: {-where} to select one, for example {-where \"experiment=1\"}."},
 
     // neighbors
-    {"strays",
-     "{strays} {strays|outlier is|outliers are} ignored, 1e12 times farther out than "
-     "most points. {strays|It|The first} is point {first} at ({x:6}, {y:6}, {z:6})."},
+    {"far_points",
+     "{far_points} {far_points|outlier is|outliers are} ignored, 1e12 times farther "
+     "out than "
+     "most points. {far_points|It|The first} is point {first} at ({x:6}, {y:6}, "
+     "{z:6})."},
     {"unfilled_box",
      "The samples fill {length} of the side {side} of the box along {axis}. If they "
      "should fill the box, the side is wrong. Try: other sides ({-periodic})."},

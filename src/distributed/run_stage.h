@@ -78,7 +78,7 @@ public:
   size() const;
 
   /** \brief Bring all samples into one unit, once they are there.
-   * \param report gets the count "strays" and a warning of what is left out */
+   * \param report gets the count "far_points" and a warning of what is left out */
   LengthUnit
   normalize(Report& report);
 

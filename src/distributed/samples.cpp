@@ -46,15 +46,15 @@ Samples::append(const SampleSpan& others)
   copy(others.sources, sources);
 }
 
-Strays
+FarPoints
 Samples::normalize(const LengthUnit& unit)
 {
-  Strays strays;
+  FarPoints far_points;
   std::size_t kept = 0;
   for (std::size_t i = 0; i < size(); ++i) {
     const Position position = unit.apply(positions[i]);
     if (!LengthUnit::isWithin(position)) {
-      strays.add(sources[i], positions[i]);
+      far_points.add(sources[i], positions[i]);
       continue;
     }
     positions[kept] = position;
@@ -62,7 +62,7 @@ Samples::normalize(const LengthUnit& unit)
     sources[kept++] = sources[i];
   }
   resize(kept);
-  return strays;
+  return far_points;
 }
 
 ValueFrame
@@ -149,12 +149,12 @@ normalizeTogether(Samples& samples,
   MagnitudeCounts counts = countMagnitudes(samples.size(), position_at, scale, threads);
   communicator.allReduce(counts.getCounts());
   const LengthUnit unit = counts.findUnit(scale);
-  const std::vector<Strays> own{samples.normalize(unit)};
+  const std::vector<FarPoints> own{samples.normalize(unit)};
   if (own[0].count > 0)
-    report.count("strays", own[0].count);
-  Strays all;
-  for (const Strays& strays : allGatherItems(communicator, own))
-    all.add(strays);
+    report.count("far_points", own[0].count);
+  FarPoints all;
+  for (const FarPoints& far_points : allGatherItems(communicator, own))
+    all.add(far_points);
   all.warn(report);
   return unit;
 }

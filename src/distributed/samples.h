@@ -65,7 +65,7 @@ struct PCL_UVOL_EXPORTS Samples {
 
   /** \brief Bring positions as they were read into a unit.
    * \return what is left out */
-  Strays
+  FarPoints
   normalize(const LengthUnit& unit);
 };
 
@@ -92,7 +92,7 @@ readSamples(const CloudView& cloud,
 
 /** \brief Bring the samples of all processes into one unit.
  * \param scale factors by which positions are stretched
- * \param report gets the count "strays" of this process and one warning of all */
+ * \param report gets the count "far_points" of this process and one warning of all */
 PCL_UVOL_EXPORTS LengthUnit
 normalizeTogether(Samples& samples,
                   const Position& scale,

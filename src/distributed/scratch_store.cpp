@@ -82,15 +82,15 @@ ScratchSamples::normalize(Report& report)
     return unit;
   }
   auto kept = std::make_unique<SampleLog>(settings_.scratch_folder, settings_.threads);
-  Strays strays;
+  FarPoints far_points;
   log_->take([&](Samples& samples) {
-    strays.add(samples.normalize(unit));
+    far_points.add(samples.normalize(unit));
     kept->append(samples);
   });
   log_ = std::move(kept);
-  if (strays.count > 0)
-    report.count("strays", strays.count);
-  strays.warn(report);
+  if (far_points.count > 0)
+    report.count("far_points", far_points.count);
+  far_points.warn(report);
   return unit;
 }
 

@@ -110,7 +110,7 @@ float silhouette(vec2 texel)
 }
 
 // Second largest turn of the normal to a neighbour on the same layer of surface: one
-// that differs alone is a stray.
+// that differs alone is an outlier.
 float feature(vec2 texel)
 {
   vec4 here = texture(normals, texel);

@@ -66,7 +66,8 @@ AnswerSummary::add(const InterpolatedFields& answers)
       ++field.count;
       field.wild +=
           value < field.sample_low - extent || value > field.sample_high + extent;
-      field.unsure += !answers.errors.empty() && answers.getError(f, i) > field.spread;
+      field.uncertain +=
+          !answers.errors.empty() && answers.getError(f, i) > field.spread;
     }
   }
 }
@@ -108,10 +109,11 @@ AnswerSummary::warnOfSupport(Report& report) const
     return;
   }
   for (const Field& field : fields_)
-    if (2 * field.unsure > field.count)
-      report.warn(
-          "unsure_values",
-          {{"unsure", field.unsure}, {"values", field.count}, {"field", field.name}});
+    if (2 * field.uncertain > field.count)
+      report.warn("unsure_values",
+                  {{"unsure", field.uncertain},
+                   {"values", field.count},
+                   {"field", field.name}});
 }
 
 } // namespace pcl_uvol::detail

@@ -23,7 +23,7 @@ public:
     double spread = 0.0;   ///< standard deviation of the samples' values
     std::size_t count = 0; ///< finite values
     double low = 0.0, high = 0.0;
-    std::size_t unsure = 0; ///< values of a standard error above the spread
+    std::size_t uncertain = 0; ///< values of a standard error above the spread
     double sample_low = 0.0, sample_high = 0.0; ///< range of the samples' values
     std::size_t wild = 0; ///< values farther beyond that range than it is wide
   };

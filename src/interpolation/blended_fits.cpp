@@ -176,7 +176,7 @@ public:
       if (buckets_.size() < few_buckets)
         together *= 2;
     }
-    krigeUnsure();
+    krigeUncertain();
   }
 
 private:
@@ -254,8 +254,8 @@ private:
       return;
     is_even_ = is_even_ && !is_thin && !is_reduced;
     for (std::size_t f = 0; f < sampled_.fields; ++f)
-      if (isUnsure(f) || (!is_even_ && isBeyondNeighbors(i, f)))
-        unsure_.push_back(i * sampled_.fields + f);
+      if (isUncertain(f) || (!is_even_ && isBeyondNeighbors(i, f)))
+        uncertain_.push_back(i * sampled_.fields + f);
   }
 
   /** Add the fits whose balls hold the query, their weights times a factor that has a
@@ -373,7 +373,7 @@ private:
 
   /** Whether the error of the fits of a field is too large at the query. */
   bool
-  isUnsure(std::size_t field) const
+  isUncertain(std::size_t field) const
   {
     const Variogram& variogram = kriging_.findVariogram(field)->model;
     const double reach = std::sqrt(sq_reach_ / sum_.getWeight());
@@ -409,20 +409,20 @@ private:
     return value < low - room || value > high + room;
   }
 
-  /** Replace the values of fits that are unsure by those of kriging. */
+  /** Replace the values of fits that are uncertain by those of kriging. */
   void
-  krigeUnsure()
+  krigeUncertain()
   {
-    if (unsure_.empty())
+    if (uncertain_.empty())
       return;
     const std::size_t fields = sampled_.fields;
     std::vector<Query> queries;
-    std::vector<std::size_t> sources; // of unsure values
-    for (std::size_t k = 0; k < unsure_.size(); ++k) {
-      const std::size_t query = unsure_[k] / fields;
-      if (k == 0 || query != unsure_[k - 1] / fields)
+    std::vector<std::size_t> sources; // of uncertain values
+    for (std::size_t k = 0; k < uncertain_.size(); ++k) {
+      const std::size_t query = uncertain_[k] / fields;
+      if (k == 0 || query != uncertain_[k - 1] / fields)
         queries.push_back(queries_[query]);
-      sources.push_back((queries.size() - 1) * fields + unsure_[k] % fields);
+      sources.push_back((queries.size() - 1) * fields + uncertain_[k] % fields);
     }
     const std::size_t count = queries.size();
     std::vector<double> values(count * fields);
@@ -435,13 +435,13 @@ private:
                        estimates_.gradients ? gradients.data() : nullptr,
                        estimates_.errors ? errors.data() : nullptr,
                        support.data()});
-    for (std::size_t k = 0; k < unsure_.size(); ++k) {
-      estimates_.values[unsure_[k]] = values[sources[k]];
+    for (std::size_t k = 0; k < uncertain_.size(); ++k) {
+      estimates_.values[uncertain_[k]] = values[sources[k]];
       if (estimates_.errors)
-        estimates_.errors[unsure_[k]] = errors[sources[k]];
+        estimates_.errors[uncertain_[k]] = errors[sources[k]];
       if (estimates_.gradients)
         std::copy_n(
-            &gradients[3 * sources[k]], 3, estimates_.gradients + 3 * unsure_[k]);
+            &gradients[3 * sources[k]], 3, estimates_.gradients + 3 * uncertain_[k]);
     }
   }
 
@@ -469,7 +469,7 @@ private:
   std::optional<SupportFinder> support_;
   double sq_reach_ = 0.0; ///< weighted sum of the squared radii of the balls
   bool is_even_ = true;   ///< samples are spread evenly, and the query lies among them
-  std::vector<std::size_t> unsure_; ///< ascending: [query][field]
+  std::vector<std::size_t> uncertain_; ///< ascending: [query][field]
 };
 
 } // namespace

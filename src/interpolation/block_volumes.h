@@ -50,10 +50,10 @@ struct BlockVolumes {
  * normal about its estimate with the standard deviation of block kriging, so a block
  * counts with its probability to be beyond the isovalue (Chiles and Delfiner,
  * Geostatistics, section 6.2): volumes never rise with a cutoff, and are never
- * negative. Blocks outside of the data, and those whose estimate is no surer than the
- * mean of all samples, are left out. Errors of blocks are taken as correlated as values
- * of the field are, which is more than they are: standard errors are upper estimates.
- * The error of the variogram is not among them.
+ * negative. Blocks outside of the data, and those whose estimate is no more certain
+ * than the mean of all samples, are left out. Errors of blocks are taken as correlated
+ * as values of the field are, which is more than they are: standard errors are upper
+ * estimates. The error of the variogram is not among them.
  *
  * \throws InvalidArgument for sides that are not positive or make more than 2^24
  * blocks, where the samples tell of no block, and as FieldInterpolation */

@@ -24,8 +24,8 @@ constexpr std::size_t near_sector = 32;
  * the last of them. */
 constexpr int octaves = 11, offset_classes = octaves + 1;
 
-/** Pairs that are farther apart along an axis, in parts of the spread, are of strays.
- */
+/** Pairs that are farther apart along an axis, in parts of the spread, have
+ * an outlier. */
 constexpr double farthest = 1.5;
 
 /** A class of fewer pairs tells nothing; of so many it counts half. */

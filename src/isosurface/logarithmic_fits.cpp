@@ -77,10 +77,10 @@ LogarithmicFits::takeLogarithm(double above_isovalue) const
 }
 
 bool
-LogarithmicFits::isSurerOfSide(const FitResult& fit,
-                               const FitResult& of_values,
-                               const Surroundings& surroundings,
-                               std::size_t lane) const
+LogarithmicFits::isMoreCertainOfSide(const FitResult& fit,
+                                     const FitResult& of_values,
+                                     const Surroundings& surroundings,
+                                     std::size_t lane) const
 {
   const bool has_fallen =
       fit.value[lane] / isovalue_ < 0.0 || of_values.value[lane] / isovalue_ < 0.0;
@@ -142,7 +142,8 @@ LogarithmicFits::improve(const int* weighted,
   for (std::size_t lane = 0; lane < fit_lanes; ++lane)
     if (is_steep[lane] && isBetter(fit, result, lane))
       accept(fit, lane, surroundings[lane], samples, result);
-    else if (is_steep[lane] && isSurerOfSide(fit, result, surroundings[lane], lane))
+    else if (is_steep[lane] &&
+             isMoreCertainOfSide(fit, result, surroundings[lane], lane))
       takeValue(fit, lane, result);
 }
 

@@ -18,7 +18,7 @@ public:
   /** \brief Fit f_iso log(f / f_iso) as well, which has the zero level of f - f_iso and
    * its slope there, where all values around have the sign of the isovalue and vary by
    * a factor; what then has the smaller error takes the place of the fit. Where the fit
-   * stays, the value at the centre is that of the one that is surer of its side.
+   * stays, the value at the centre is that of the one that is more certain of its side.
    * \param weighted neighbours with a weight, per lane
    * \param surroundings of the lanes with a weight; their values become logarithms
    * where these are taken
@@ -37,15 +37,15 @@ private:
   double
   takeLogarithm(double above_isovalue) const;
 
-  /** Whether logarithms that have not been taken are surer of the side of the centre,
-   * where the samples tell of no surface nearby, or do not reach: a polynomial of
-   * values that fall by factors rises there again. Logarithms rise without bound, and a
-   * rise that both tell of stays that of the values. */
+  /** Whether logarithms that have not been taken are more certain of the side of the
+   * centre, where the samples tell of no surface nearby, or do not reach: a polynomial
+   * of values that fall by factors rises there again. Logarithms rise without bound,
+   * and a rise that both tell of stays that of the values. */
   bool
-  isSurerOfSide(const FitResult& fit,
-                const FitResult& of_values,
-                const Surroundings& surroundings,
-                std::size_t lane) const;
+  isMoreCertainOfSide(const FitResult& fit,
+                      const FitResult& of_values,
+                      const Surroundings& surroundings,
+                      std::size_t lane) const;
 
   /** Tell the logarithm at the centre; infinite where float holds no such value. */
   void

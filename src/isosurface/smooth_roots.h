@@ -20,8 +20,8 @@ struct RootFit {
   float radius; ///< of the ball around the linear root that the nearest samples lie in,
                 ///< in the stretched space; infinite where samples are few
   float value;  ///< at the point as it was given, minus the isovalue, of the fit or of
-               ///< one that is surer of the sign, whether or not the root serves; where
-               ///< that is one of logarithms, theirs; NaN without a fit
+                ///< one that is more certain of the sign, whether or not the root
+                ///< serves; where that is one of logarithms, theirs; NaN without a fit
 };
 
 /** \brief Move isopoints onto fits through their nearest samples.

@@ -75,7 +75,7 @@ warnOfMissedSamples(const SurfaceFigures& figures, Report& report)
 } // namespace
 
 bool
-isUnsure(const PieceMeasures& piece)
+isUncertain(const PieceMeasures& piece)
 {
   return piece.area.error > piece.area.value &&
          (piece.rims > 0 || piece.volume.error > std::abs(piece.volume.value));
@@ -117,15 +117,15 @@ warnOfSupport(const CloudView& vertices, Report& report)
 }
 
 void
-warnOfUnsure(const UnsurePieces& found, Report& report)
+warnOfUncertain(const UncertainPieces& found, Report& report)
 {
   if (found.are_left_out && found.kept > 0)
     report.warn("kept_unsure_pieces", {{"kept", found.kept}, {"pieces", found.pieces}});
-  if (found.unsure == 0)
+  if (found.uncertain == 0)
     return;
   const auto words = describeNumbers({found.area.value, found.area.error});
   report.warn("unsure_pieces",
-              {{"unsure", found.unsure},
+              {{"unsure", found.uncertain},
                {"pieces", found.pieces},
                {"area", words[0]},
                {"error", words[1]},

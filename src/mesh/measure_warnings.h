@@ -13,18 +13,18 @@ namespace pcl_uvol::detail {
 /** \brief Whether area and volume of a piece are known no better than to their own
  * size: vertices may be off by as much as the piece is large. */
 bool
-isUnsure(const PieceMeasures& piece);
+isUncertain(const PieceMeasures& piece);
 
 /** \brief Whether a piece is in one plane, as far as float can hold. */
 bool
 isFlat(const SurfaceIntegrals& integrals, const PieceMeasures& piece);
 
-/** \brief The unsure pieces of a surface. */
-struct UnsurePieces {
-  std::size_t pieces = 0; ///< of the surface
-  std::size_t unsure = 0; ///< that are, of isovalues with others
-  std::size_t kept = 0;   ///< that are, where nothing else would be left
-  Measure area{0.0, 0.0}; ///< of the unsure ones together
+/** \brief The uncertain pieces of a surface. */
+struct UncertainPieces {
+  std::size_t pieces = 0;    ///< of the surface
+  std::size_t uncertain = 0; ///< that are, of isovalues with others
+  std::size_t kept = 0;      ///< that are, where nothing else would be left
+  Measure area{0.0, 0.0};    ///< of the uncertain ones together
   bool are_left_out = false;
 };
 
@@ -33,9 +33,9 @@ struct UnsurePieces {
 void
 warnOfSupport(const CloudView& vertices, Report& report);
 
-/** \brief Warn of unsure pieces. */
+/** \brief Warn of uncertain pieces. */
 void
-warnOfUnsure(const UnsurePieces& found, Report& report);
+warnOfUncertain(const UncertainPieces& found, Report& report);
 
 /** \brief Warn of surfaces that are open, flat or inverted, and of large errors. */
 void

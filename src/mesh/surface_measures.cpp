@@ -142,7 +142,7 @@ public:
       figures.pieces.push_back(describePiece(i));
     describeFields();
     const std::vector<std::size_t> rank = nameIsovalues();
-    findUnsure(rank, drop_unsure);
+    findUncertain(rank, drop_unsure);
     sortPieces(rank);
   }
 
@@ -229,7 +229,7 @@ public:
       report.warn("area_without_error", {{"percent", std::lround(100.0 * part)}});
     detail::warnOfSupport(vertices_, report);
     detail::warnOfMeasures(figures, report);
-    detail::warnOfUnsure(unsure_, report);
+    detail::warnOfUncertain(uncertain_, report);
   }
 
   SurfaceFigures figures;
@@ -292,27 +292,27 @@ private:
   /** Find the pieces that are known no better than to their own size, and leave them
    * out if that is asked for, unless nothing would be left of an isovalue. */
   void
-  findUnsure(const std::vector<std::size_t>& rank, bool drop)
+  findUncertain(const std::vector<std::size_t>& rank, bool drop)
   {
-    unsure_.pieces = figures.pieces.size();
-    unsure_.are_left_out = drop;
+    uncertain_.pieces = figures.pieces.size();
+    uncertain_.are_left_out = drop;
     is_left_out_.assign(figures.pieces.size(), false);
     std::vector<bool> is_any_sure(figures.pieces.size() + 1); // by isovalue
     for (std::size_t i = 0; i < figures.pieces.size(); ++i)
-      if (!detail::isUnsure(figures.pieces[i]))
+      if (!detail::isUncertain(figures.pieces[i]))
         is_any_sure[rank[i]] = true;
     for (std::size_t i = 0; i < figures.pieces.size(); ++i) {
       const PieceMeasures& piece = figures.pieces[i];
-      if (!detail::isUnsure(piece))
+      if (!detail::isUncertain(piece))
         continue;
       if (!is_any_sure[rank[i]]) {
-        ++unsure_.kept;
+        ++uncertain_.kept;
         continue;
       }
       is_left_out_[i] = drop;
-      ++unsure_.unsure;
-      unsure_.area.value += piece.area.value;
-      unsure_.area.error += piece.area.error;
+      ++uncertain_.uncertain;
+      uncertain_.area.value += piece.area.value;
+      uncertain_.area.error += piece.area.error;
     }
   }
 
@@ -466,7 +466,7 @@ private:
   const CloudView& vertices_;
   Eigen::Vector3d origin_;
   PieceMeasures whole_box_; // what its samples are
-  detail::UnsurePieces unsure_;
+  detail::UncertainPieces uncertain_;
   std::vector<bool> is_left_out_;           // by piece, before they have an order
   double area_ = 0.0, without_error_ = 0.0; // of it, where no vertex tells its error
   std::vector<Eigen::Vector3d> centers_;    // by piece, that integrals are relative to

@@ -26,7 +26,7 @@ PCL_UVOL_EXPORTS Eigen::Array3f
 equalizingScale(const CloudView& cloud);
 
 /** \brief Extent of samples along each axis, between the 5th and the 95th percentile of
- * their coordinates, so that a few strays do not decide.
+ * their coordinates, so that a few outliers do not decide.
  * \param use samples, with finite coordinates */
 PCL_UVOL_EXPORTS Eigen::Array3f
 findSpread(const CloudView& cloud, const std::vector<std::uint32_t>& use);

@@ -89,13 +89,13 @@ MagnitudeCounts::reachesBeyond(const LengthUnit& unit) const
 }
 
 void
-Strays::add(std::uint64_t index, const Position& at)
+FarPoints::add(std::uint64_t index, const Position& at)
 {
-  add(Strays{1, index, at});
+  add(FarPoints{1, index, at});
 }
 
 void
-Strays::add(const Strays& other)
+FarPoints::add(const FarPoints& other)
 {
   if (other.count > 0 && (count == 0 || other.first < first)) {
     first = other.first;
@@ -105,11 +105,11 @@ Strays::add(const Strays& other)
 }
 
 void
-Strays::warn(Report& report) const
+FarPoints::warn(Report& report) const
 {
   if (count > 0)
-    report.warn("strays",
-                {{"strays", count},
+    report.warn("far_points",
+                {{"far_points", count},
                  {"first", first},
                  {"x", position[0]},
                  {"y", position[1]},

@@ -113,9 +113,9 @@ countMagnitudes(std::size_t count,
   return all;
 }
 
-/** \brief Points, counted as "strays", that are left out because they lie beyond
+/** \brief Points, counted as "far_points", that are left out because they lie beyond
  * LengthUnit::farthest. */
-struct PCL_UVOL_EXPORTS Strays {
+struct PCL_UVOL_EXPORTS FarPoints {
   std::uint64_t count = 0;
   std::uint64_t first = 0; ///< lowest index of them
   Position position{};     ///< of that one, in the input
@@ -124,7 +124,7 @@ struct PCL_UVOL_EXPORTS Strays {
   add(std::uint64_t index, const Position& at);
 
   void
-  add(const Strays& other);
+  add(const FarPoints& other);
 
   /** \brief Say how many there are and which is the first, if there are any. */
   void

@@ -17,7 +17,7 @@ constexpr std::size_t set_block = 1u << 14;
 /** What became of points of a block. */
 struct Gathered {
   std::size_t records = 0, non_finite = 0;
-  Strays strays;
+  FarPoints far_points;
 };
 
 /** Records of the points that are samples.
@@ -42,7 +42,7 @@ gatherRecords(const float* xyz,
           if (unit.isWithin(position))
             records[begin + block.records++] = {position, use[i]};
           else if (isFinite(raw))
-            block.strays.add(use[i], raw);
+            block.far_points.add(use[i], raw);
           else
             ++block.non_finite;
         }
@@ -53,7 +53,7 @@ gatherRecords(const float* xyz,
     const auto last = begin + static_cast<std::ptrdiff_t>(blocks[i].records);
     end = begin == end ? last : std::move(begin, last, end);
     all.non_finite += blocks[i].non_finite;
-    all.strays.add(blocks[i].strays);
+    all.far_points.add(blocks[i].far_points);
   }
   records.erase(end, records.end());
   return records;
@@ -161,9 +161,9 @@ SampleSet::buildInUnit(const float* xyz,
   Gathered gathered;
   SampleRecords records = gatherRecords(xyz, stride, use, unit, threads, gathered);
   report.count("non_finite", gathered.non_finite);
-  if (gathered.strays.count > 0)
-    report.count("strays", gathered.strays.count);
-  gathered.strays.warn(report);
+  if (gathered.far_points.count > 0)
+    report.count("far_points", gathered.far_points.count);
+  gathered.far_points.warn(report);
   if (records.empty())
     throw InvalidArgument("no_usable_sample", {{"samples", use.size()}});
 

@@ -66,7 +66,7 @@ public:
    * \param scale factors per axis: distances are measured in the stretched space
    * \param report gets the counts "non_finite" and "duplicates" and the time of "tree";
    * points so far out that float cannot measure distances to them are left out, with
-   * the count "strays" and a warning.
+   * the count "far_points" and a warning.
    * Exact duplicates become one sample, see getMerged.
    * \throws InvalidArgument if no sample is left, and for factors that take
    * coordinates out of the range of float */

@@ -29,7 +29,7 @@ constexpr double least_contrast = 4.0;
 
 /** A sample is alone where its nearest neighbour is so many times as far as that one's
  * own. */
-constexpr double lonely_ratio = 8.0;
+constexpr double isolated_ratio = 8.0;
 
 /** Neighbours that tell a line from a sheet where nothing lies beside them. */
 constexpr std::size_t around_samples = 13;
@@ -72,7 +72,7 @@ SamplingFinder::isAlone(std::uint32_t sample, double& nearest)
     return distance;
   };
   nearest = find(sample);
-  return other == sample || nearest > lonely_ratio * find(other);
+  return other == sample || nearest > isolated_ratio * find(other);
 }
 
 LocalSampling

@@ -128,19 +128,19 @@ SimpleCell::cut(const Vector3d& offset,
   if (heights == 0)
     return Cut::Nothing;
   if ((heights & 2) && ties_ == Ties::Refuse)
-    return Cut::Unsure;
+    return Cut::Undecided;
   const double length = std::sqrt(sq_length);
   if ((heights & 2) && !keepTies(length, margin))
     return Cut::Nothing;
   const std::size_t own = findEmptyFace();
   if (own == most_faces)
-    return Cut::Unsure;
+    return Cut::Undecided;
   Face& face = face_[own];
   face.offset = offset;
   face.limit = limit;
   face.length = length;
   face.sample = sample;
-  return replaceVertices(static_cast<std::uint16_t>(own)) ? Cut::Part : Cut::Unsure;
+  return replaceVertices(static_cast<std::uint16_t>(own)) ? Cut::Part : Cut::Undecided;
 }
 
 bool
@@ -465,7 +465,7 @@ SimpleCellFinder::find(const CellSearch& around)
 {
   cell_.start(around.getHalfSide());
   for (const std::uint32_t sample : around.getNear())
-    if (cell_.cut(around.offsetOf(sample), sample) == SimpleCell::Cut::Unsure)
+    if (cell_.cut(around.offsetOf(sample), sample) == SimpleCell::Cut::Undecided)
       return false;
   // Only samples farther out than those are left to cut off a vertex: not the near
   // ones.

@@ -33,14 +33,14 @@ public:
 
   /** \brief What happens if a vertex is on a plane, but for rounding. */
   enum class Ties {
-    Refuse, ///< cut() is unsure
+    Refuse, ///< cut() is undecided
     Keep    ///< the plane does not cut off the vertex
   };
 
   enum class Cut {
     Nothing, ///< was cut off
     Part,
-    Unsure ///< Ties::Refuse, and more than three planes meet; or too many faces
+    Undecided ///< Ties::Refuse, and more than three planes meet; or too many faces
   };
 
   /** \brief A plane: offset . x = limit, with the cell on the side of smaller ones. */
@@ -55,8 +55,8 @@ public:
   void
   start(double half_side, Ties ties = Ties::Refuse);
 
-  /** \brief Keep what lies nearer to the origin than to a sample. After Unsure the cell
-   * is undefined. */
+  /** \brief Keep what lies nearer to the origin than to a sample. After Undecided the
+   * cell is undefined. */
   Cut
   cut(const Eigen::Vector3d& offset, std::uint32_t sample);
 

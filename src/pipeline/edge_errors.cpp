@@ -61,10 +61,10 @@ struct Extents {
   }
 };
 
-/** How far points stray from the paraboloid over a plane that fits them best: the
+/** How far points deviate from the paraboloid over a plane that fits them best: the
  * deviation, or that of the point at the origin if it is larger. */
 double
-findStraying(const Eigen::Matrix3Xd& points, const Extents& extents)
+findDeviation(const Eigen::Matrix3Xd& points, const Extents& extents)
 {
   const double radius = std::sqrt(points.colwise().squaredNorm().maxCoeff());
   const Eigen::Matrix3Xd local = extents.axes.transpose() * points / radius;
@@ -136,7 +136,7 @@ EdgeErrorFinder::find(std::size_t isopoint)
   const Position& scale = places_.getUnit().scale;
   const double slope =
       normal.cwiseProduct(Vector3d(scale[0], scale[1], scale[2])).norm();
-  const double error = residual_factor * findStraying(points, extents) / slope;
+  const double error = residual_factor * findDeviation(points, extents) / slope;
   return static_cast<float>(std::hypot(error, computeRounding(point)));
 }
 

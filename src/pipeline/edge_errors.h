@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Errors of isopoints on edges: how far these stray from a smooth surface.
+// Errors of isopoints on edges: how far these deviate from a smooth surface.
 #pragma once
 
 #include "pipeline/isopoint_search.h"
@@ -19,9 +19,9 @@ namespace pcl_uvol {
  * from the surface, one after another; one object per thread.
  *
  * Such an isopoint is somewhere on its edge, which is all that its edge tells. Where
- * the field is smooth it is far better than that: linear roots stray by as much as the
- * field bends along their edges, and by another amount on each edge. How much shows in
- * the residuals of the isopoints around from a paraboloid through them. It does not
+ * the field is smooth it is far better than that: linear roots deviate by as much as
+ * the field bends along their edges, and by another amount on each edge. How much shows
+ * in the residuals of the isopoints around from a paraboloid through them. It does not
  * show where values jump, as those of rock types do: all roots may be equally wrong
  * there. */
 class EdgeErrorFinder {

@@ -5,10 +5,10 @@
 #include "common/scalar_field.h"
 #include "isosurface/iso_edges.h"
 #include "pipeline/gap_filling.h"
-#include "pipeline/guessed_isopoints.h"
 #include "pipeline/isopoint_choice.h"
 #include "pipeline/isopoint_filter.h"
 #include "pipeline/periodic_surface.h"
+#include "pipeline/weak_support.h"
 
 #include <pcl/conversions.h>
 
@@ -168,7 +168,7 @@ finishIsosurface(const Dataset& samples,
       chooseIsopoints(view, edges, parameters, threads, isopoints, report);
   if (gaps)
     gaps->judge(parameters, threads, isopoints, edges, choice, report);
-  const KnownIsopoints known(
+  const SupportedIsopoints known(
       view, parameters.isosurface, sampling, gaps ? &gaps->getSummary() : nullptr);
   const DroppedIsopoints dropped =
       dropIsopoints(isopoints, edges, choice, parameters, known, report);
@@ -176,15 +176,15 @@ finishIsosurface(const Dataset& samples,
     countSupports(isopoints,
                   withErrors(parameters).interpolation != Interpolation::Linear,
                   report);
-  const SurfaceGrounds examined = findGrounds(found.tally);
-  const SurfaceGrounds own = examined.known > 0
-                                 ? examined
-                                 : findGrounds(isopoints,
-                                               edges,
-                                               choice,
-                                               found.is_on_cap,
-                                               PeriodicBox{{}, sidesOf(parameters)});
-  warnOfGuesses(addTogether(own, communicator), role, parameters, sampling, report);
+  const SupportCounts examined = findSupportCounts(found.tally);
+  const SupportCounts own =
+      examined.known > 0 ? examined
+                         : findSupportCounts(isopoints,
+                                             edges,
+                                             choice,
+                                             found.is_on_cap,
+                                             PeriodicBox{{}, sidesOf(parameters)});
+  warnOfWeakSupport(addTogether(own, communicator), role, parameters, sampling, report);
   if (role == SurfaceRole::Isosurface)
     warnOfLosses(
         parameters, found.tally, dropped, isopoints.size(), communicator, report);

@@ -2,7 +2,7 @@
 // From isopoints or triangles to a surface with all fields.
 #pragma once
 
-#include "pipeline/guessed_isopoints.h"
+#include "pipeline/weak_support.h"
 #include <pcl_uvol/distributed/communicator.h>
 #include <pcl_uvol/mesh/surface_mesh.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>

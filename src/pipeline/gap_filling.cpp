@@ -247,15 +247,15 @@ FilledGaps::compareFits(const std::vector<std::uint8_t>& is_in_gap,
                                        parameters.scale.cast<double>(),
                                        threads,
                                        progress);
-  sure_fits_ = std::make_unique<SureFits>(
+  reliable_fits_ = std::make_unique<ReliableFits>(
       crossings, are_supported, slopes, parameters.scale, summary_.spacing, threads);
-  const auto is_sure = sure_fits_->find(places, threads);
-  std::vector<float> unsure;
+  const auto is_sure = reliable_fits_->find(places, threads);
+  std::vector<float> uncertain;
   for (std::size_t i = 0; i < errors.size(); ++i)
     if (is_sure[i] == 0 && are_supported[i] == 0)
-      unsure.push_back(errors[i]);
-  if (!unsure.empty())
-    measured_error_ = computeMedian(unsure);
+      uncertain.push_back(errors[i]);
+  if (!uncertain.empty())
+    measured_error_ = computeMedian(uncertain);
 }
 
 void
@@ -265,25 +265,26 @@ FilledGaps::predictBetween(const pcl::PointCloud<PointIso>& roots,
                            unsigned threads,
                            Report& report)
 {
-  const auto is_sure = sure_fits_->find(listPlaces(roots), threads);
+  const auto is_sure = reliable_fits_->find(listPlaces(roots), threads);
   pcl::PointCloud<PointIso> seeds;
-  std::size_t in_gaps = 0, unsure = 0;
+  std::size_t in_gaps = 0, uncertain = 0;
   for (std::size_t i = 0; i < roots.size(); ++i) {
     in_gaps += is_in_gap[i];
     if (is_sure[i] != 0)
       continue;
-    unsure += is_in_gap[i];
+    uncertain += is_in_gap[i];
     seeds.push_back(roots[i]);
   }
-  if (!areGaps(unsure, roots.size())) {
-    summary_.unfilled = "fits to the measured samples are surer of the surface across "
-                        "them than kriging is";
+  if (!areGaps(uncertain, roots.size())) {
+    summary_.unfilled =
+        "fits to the measured samples are more certain of the surface across "
+        "them than kriging is";
     return;
   }
   predict(seeds, parameters, threads, report);
-  if (summary_.predicted > 0 && 2 * unsure < in_gaps)
+  if (summary_.predicted > 0 && 2 * uncertain < in_gaps)
     report.warn("few_filled_gaps",
-                {{"surer", in_gaps - unsure}, {"crossings", in_gaps}});
+                {{"surer", in_gaps - uncertain}, {"crossings", in_gaps}});
 }
 
 void
@@ -441,7 +442,7 @@ FilledGaps::predict(const pcl::PointCloud<PointIso>& roots,
           near.push_back(i);
           near_places.push_back(places[i]);
         }
-      const auto is_sure = sure_fits_->find(near_places, threads);
+      const auto is_sure = reliable_fits_->find(near_places, threads);
       const InterpolatedFields field = field_->interpolate(near_places, threads, own);
       const auto support = nearest_->interpolate(near_places, threads, own).support;
       for (std::size_t j = 0; j < near.size(); ++j) {

@@ -7,8 +7,8 @@
 #include "neighbors/sample_set.h"
 #include "pipeline/isopoint_choice.h"
 #include "pipeline/pipeline_input.h"
+#include "pipeline/reliable_fits.h"
 #include "pipeline/sample_hull.h"
-#include "pipeline/sure_fits.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/export.h>
@@ -60,8 +60,8 @@ takesLattice(const IsosurfacePipelineParameters& parameters);
  * robust one, see VariogramEstimator::MeanRoot. The lattice's nodes around the surface
  * become samples where measured ones lack, at most half a gap outside of the hull of
  * these, and no farther from the nearest one than the range of the variogram and than a
- * few of these spacings; none where local fits of the measured ones are surer of the
- * surface, see SureFits. */
+ * few of these spacings; none where local fits of the measured ones are more certain of
+ * the surface, see ReliableFits. */
 class PCL_UVOL_EXPORTS FilledGaps {
 public:
   /** \param input with the field and the scale that are taken; gets the samples and
@@ -119,8 +119,8 @@ private:
                   unsigned threads,
                   const ProgressCallback& progress);
 
-  /** Find where fits are surer of the surface across gaps than kriging, and what their
-   * errors are elsewhere.
+  /** Find where fits are more certain of the surface across gaps than kriging, and what
+   * their errors are elsewhere.
    * \param is_in_gap one per isopoint
    * \param extraction of the measured samples */
   void
@@ -168,13 +168,13 @@ private:
   SamplingSummary sampling_;
   std::unique_ptr<FieldInterpolator> field_;
   std::unique_ptr<SampleHull> hull_;
-  std::unique_ptr<SureFits> sure_fits_;
+  std::unique_ptr<ReliableFits> reliable_fits_;
   std::unique_ptr<FieldInterpolator> nearest_; ///< tells support of measured samples
   std::vector<LatticeEdge> lattice_edges_;
   double reach_ = 0.0; ///< from the nearest measured sample
   bool has_gaps_ = false;
   /** Median of the errors of fits to measured samples across gaps where they are not
-   * the surer ones; infinite of none. */
+   * the more certain ones; infinite of none. */
   float measured_error_ = std::numeric_limits<float>::infinity();
   GapFilling summary_;
 };

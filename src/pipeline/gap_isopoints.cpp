@@ -167,7 +167,7 @@ FilledGaps::judge(const IsosurfacePipelineParameters& parameters,
   own.progress = report.progress;
   const auto slopes = findKrigedSlopes(
       *field_, roots, slope_step * summary_.spacing, scale, threads, report.progress);
-  const auto is_sure = sure_fits_->find(roots, threads);
+  const auto is_sure = reliable_fits_->find(roots, threads);
   const auto support = nearest_->interpolate(roots, threads, own).support;
   const auto thin = findThin(roots, threads, nullptr);
   const double variance = summary_.nugget + summary_.sill;

@@ -16,7 +16,7 @@ namespace {
  * most, since edges slip between samples on a lattice. */
 constexpr double jitter = 0.25;
 
-/** Beyond it along an axis, which takes a stray sample, no surface is followed. */
+/** Beyond it along an axis, which takes an outlier, no surface is followed. */
 constexpr double farthest_node = (1 << 20) - 4;
 
 } // namespace

@@ -7,7 +7,7 @@
 #include "neighbors/nearest_finder.h"
 #include "neighbors/sample_values.h"
 #include "pipeline/gap_filling.h"
-#include "pipeline/guessed_isopoints.h"
+#include "pipeline/weak_support.h"
 
 #include <pcl/conversions.h>
 

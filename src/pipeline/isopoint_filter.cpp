@@ -93,7 +93,7 @@ dropIsopoints(pcl::PointCloud<PointIso>& isopoints,
               IsoEdges& edges,
               IsopointChoice& choice,
               const IsosurfacePipelineParameters& parameters,
-              const KnownIsopoints& known,
+              const SupportedIsopoints& known,
               Report& report)
 {
   const auto filter = [&](const auto& keep) {
@@ -134,24 +134,24 @@ dropIsopoints(pcl::PointCloud<PointIso>& isopoints,
 }
 
 void
-warnOfGuesses(const SurfaceGrounds& grounds,
-              SurfaceRole role,
-              const IsosurfacePipelineParameters& parameters,
-              const std::optional<SamplingSummary>& sampling,
-              Report& report)
+warnOfWeakSupport(const SupportCounts& counts,
+                  SurfaceRole role,
+                  const IsosurfacePipelineParameters& parameters,
+                  const std::optional<SamplingSummary>& sampling,
+                  Report& report)
 {
   Message guess("guessed_isopoints", listRemedies(parameters));
   guess.values.emplace_back("validate", parameters.validation.folds == 0);
   guess.values.emplace_back("bridged", !parameters.drop_bridged && !parameters.mesh);
   if (const auto told = role == SurfaceRole::ClusterBorder
-                            ? tellGuessedBorder(grounds)
-                            : tellGuesses(grounds,
-                                          sampling,
-                                          std::move(guess),
-                                          !(parameters.periodic > 0.0).all()))
+                            ? describeWeakBorder(counts)
+                            : describeWeakSupport(counts,
+                                                  sampling,
+                                                  std::move(guess),
+                                                  !(parameters.periodic > 0.0).all()))
     report.warnings.push_back(*told);
-  if (4 * grounds.thin > grounds.known)
-    report.warn("thin_parts", {{"percent", 100 * grounds.thin / grounds.known}});
+  if (4 * counts.thin > counts.known)
+    report.warn("thin_parts", {{"percent", 100 * counts.thin / counts.known}});
 }
 
 void

@@ -2,9 +2,9 @@
 // Which isopoints a pipeline keeps, and what it says of them.
 #pragma once
 
-#include "pipeline/guessed_isopoints.h"
 #include "pipeline/isopoint_choice.h"
-#include "pipeline/known_isopoints.h"
+#include "pipeline/supported_isopoints.h"
+#include "pipeline/weak_support.h"
 #include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>
 
 #include <cstdint>
@@ -26,16 +26,16 @@ dropIsopoints(pcl::PointCloud<PointIso>& isopoints,
               IsoEdges& edges,
               IsopointChoice& choice,
               const IsosurfacePipelineParameters& parameters,
-              const KnownIsopoints& known,
+              const SupportedIsopoints& known,
               Report& report);
 
 /** \brief Warn where most isopoints do not rest on samples around them. */
 void
-warnOfGuesses(const SurfaceGrounds& grounds,
-              SurfaceRole role,
-              const IsosurfacePipelineParameters& parameters,
-              const std::optional<SamplingSummary>& sampling,
-              Report& report);
+warnOfWeakSupport(const SupportCounts& counts,
+                  SurfaceRole role,
+                  const IsosurfacePipelineParameters& parameters,
+                  const std::optional<SamplingSummary>& sampling,
+                  Report& report);
 
 /** \brief Warn of samples next to the surface whose values stand alone, and where few
  * isopoints are left or none, of all processes together. By all of them.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a kriged field says of the isosurface through a place: where it is, which way it
-// looks, and how unsure that is.
+// looks, and how uncertain that is.
 #pragma once
 
 #include <pcl_uvol/common/stage.h>

@@ -6,8 +6,8 @@
 #include "common/scalar_field.h"
 #include "common/stretch_axes.h"
 #include "neighbors/samples_in_box.h"
-#include "pipeline/guessed_isopoints.h"
 #include "pipeline/pipeline_input.h"
+#include "pipeline/weak_support.h"
 #include "pipeline/zero_level.h"
 #include <pcl_uvol/levelset/level_set_evolution.h>
 
@@ -98,9 +98,10 @@ runLevelSet(const std::shared_ptr<const Dataset>& samples,
   result.summary = evolution.getSummary();
   result.sampling = *evolution.getSampling();
   if (!boxed) // most of what is examined there may be images
-    if (const auto guesses = tellGuesses(findGrounds(evolution.getTally()),
-                                         result.sampling,
-                                         {"smoothed_guesses", {}}))
+    if (const auto guesses =
+            describeWeakSupport(findSupportCounts(evolution.getTally()),
+                                result.sampling,
+                                {"smoothed_guesses", {}}))
       result.report.warnings.push_back(*guesses);
   result.report.progress = nullptr; // which is the caller's
   return result;

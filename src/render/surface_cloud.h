@@ -143,8 +143,8 @@ public:
   findFootprints(unsigned threads, Report& report) const;
 
   /** \brief What cameras are fitted to: discs by input index, in the unit of the input;
-   * of radius NaN for what is not drawn, and for what is a dot because it is lonely or
-   * lies in a gap of the sampling. Where most points are dots these are the picture,
+   * of radius NaN for what is not drawn, and for what is a dot because it is isolated
+   * or lies in a gap of the sampling. Where most points are dots these are the picture,
    * and count, with radius 0. */
   std::vector<FittedDisc>
   listFittedDiscs(const Footprints& footprints, std::size_t input_count) const;

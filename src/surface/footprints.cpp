@@ -54,9 +54,9 @@ constexpr float least_agreement = 0.5f, steepest = 0.7f;
 constexpr std::size_t least_company = 3;
 
 /** In parts of what half of the nearest points have: a point whose 16th neighbour is
- * farther away is lonely. Isopoints of graded samples grow apart by less, and clumps of
- * them are in the other half. */
-constexpr float lonely_distance = 6.0f;
+ * farther away is isolated. Isopoints of graded samples grow apart by less, and clumps
+ * of them are in the other half. */
+constexpr float isolated_distance = 6.0f;
 
 /** Cosine of the angle to the mean direction: a point beyond it lies on the other side.
  */
@@ -442,13 +442,13 @@ computeFootprints(const OrientedPoints& points, unsigned threads, Report& report
       float most = 0.0f;
       for (std::size_t k = 0; k < compared_neighbors; ++k)
         most = std::max(most, largest_growth * reach[nearest[k]].all);
-      const bool is_lonely =
-          reach[i].around > lonely_distance * usualDistance(nearest, reach);
-      if (is_lonely)
+      const bool is_isolated =
+          reach[i].around > isolated_distance * usualDistance(nearest, reach);
+      if (is_isolated)
         most = 0.0f;
       footprints.radii[i] = room * std::min(reach[i].all, most);
       footprints.fillers[i] = room * std::min(reach[i].first, most);
-      footprints.on_rim[i] = reach[i].on_rim || is_lonely ? 1 : 0;
+      footprints.on_rim[i] = reach[i].on_rim || is_isolated ? 1 : 0;
       if (!points.bridged.empty() && points.bridged[i])
         footprints.radii[i] = footprints.fillers[i] = 0.0f;
       footprints.bends[i] = packBend(reach[i].bend, footprints.radii[i]);

@@ -22,7 +22,7 @@ using NearestPoints = std::array<std::uint32_t, 32>;
 struct Footprints {
   /** Distance to the farthest corner of the point's Voronoi cell among its neighbours
    * in its tangent plane: discs of that size, and no smaller ones, cover a plane. 0 for
-   * lonely points. */
+   * isolated points. */
   std::vector<float> radii;
   /** The same for those corners only for which the point is the first of the three
    * points around: each hole has one such disc, which leaves a part of it open. */
@@ -43,7 +43,7 @@ struct Footprints {
  * about the length that edges of isopoints have there, or twice that on a surface that
  * goes on all around, and the distance of the 16th neighbour on whatever side. Points
  * that have far fewer points about them than those have, and points whose disc would
- * meet hardly another one, are lonely. Isopoints in gaps of the sampling get discs of
+ * meet hardly another one, are isolated. Isopoints in gaps of the sampling get discs of
  * radius 0, and the others do without them: nothing is known between them.
  */
 PCL_UVOL_EXPORTS Footprints

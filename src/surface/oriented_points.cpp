@@ -84,7 +84,7 @@ estimateNormals(const CloudView& cloud,
   estimation.progress = report.progress;
   const auto estimated =
       detail::estimateSurfaceNormals(cloud, use, {}, nullptr, threads, estimation);
-  addCounts(estimation, {"strays"}, report);
+  addCounts(estimation, {"far_points"}, report);
   report.warnings.insert(
       report.warnings.end(), estimation.warnings.begin(), estimation.warnings.end());
   Normals normals;

@@ -587,7 +587,7 @@ TEST(Figure, BoxesHoldWhatCamerasAreFittedTo)
   pcl::PointCloud<pcl::PointXYZ> points;
   points.push_back({0.0f, 0.0f, 0.0f});
   points.push_back({1.0f, 2.0f, 3.0f});
-  points.push_back({1000.0f, -50.0f, 7.0f}); // lonely
+  points.push_back({1000.0f, -50.0f, 7.0f}); // isolated
   const pcl_uvol::CloudView cloud = pcl_uvol::viewOf(points);
   uvol_tools::Figure figure;
   figure.has_box = true;

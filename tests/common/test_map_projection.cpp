@@ -99,7 +99,7 @@ TEST(MapProjection, GivesPointsTheirLongitudeAndLatitude)
 
 TEST(MapProjection, NamesOfOtherThingsAreNotDegrees)
 {
-  for (const char* const name : {"lon_rad", "LONGITUDE_QC", "long_name", "lonely"}) {
+  for (const char* const name : {"lon_rad", "LONGITUDE_QC", "long_name", "isolated"}) {
     Dataset points = makePoints();
     setField(points, name, std::vector<float>{0.0f, 0.0f});
     setField(points, "lat", std::vector<float>{0.0f, 0.0f});

@@ -187,9 +187,9 @@ TEST(Message, OneIsNotMany)
   };
   EXPECT_EQ(0u, left_out(1).find("max_error removed the last isopoint. "));
   EXPECT_EQ(0u, left_out(9).find("max_error removed the last 9 isopoints. "));
-  const auto strays = [](std::uint64_t count) {
-    return Message("strays",
-                   {{"strays", count},
+  const auto far_points = [](std::uint64_t count) {
+    return Message("far_points",
+                   {{"far_points", count},
                     {"first", 7},
                     {"x", -1e20f},
                     {"y", 0.1234567},
@@ -199,11 +199,11 @@ TEST(Message, OneIsNotMany)
   EXPECT_EQ(
       "1 outlier is ignored, 1e12 times farther out than most points. It is point 7 "
       "at (-1e+20, 0.123457, 1e+06).",
-      strays(1));
+      far_points(1));
   EXPECT_EQ(
       "3 outliers are ignored, 1e12 times farther out than most points. The first is "
       "point 7 at (-1e+20, 0.123457, 1e+06).",
-      strays(3));
+      far_points(3));
 }
 
 TEST(Message, OneOfTwoMayBeEmpty)
@@ -327,9 +327,10 @@ refusalOf(const Message& message)
 
 TEST(Message, UnknownCodesAreRefused)
 {
-  for (const char* const code : {"no_such_code", "", "STRAYS", "stray", "strayss"}) {
+  for (const char* const code :
+       {"no_such_code", "", "FAR_POINTS", "far_point", "far_pointss"}) {
     EXPECT_EQ("There is no message with the code '" + std::string(code) + "'.",
-              refusalOf(Message(code, {{"strays", 1}})));
+              refusalOf(Message(code, {{"far_points", 1}})));
     EXPECT_THROW(IOError(code, {}), InvalidArgument);
   }
 }
@@ -385,12 +386,12 @@ TEST(Message, ReportsKeepThem)
 {
   pcl_uvol::Report report, other;
   report.warn("few_samples_for_choice");
-  other.warn("strays", {{"strays", 2}});
+  other.warn("far_points", {{"far_points", 2}});
   report.merge(other);
-  EXPECT_EQ((std::vector<std::string>{"few_samples_for_choice", "strays"}),
+  EXPECT_EQ((std::vector<std::string>{"few_samples_for_choice", "far_points"}),
             uvol_test::listCodes(report.warnings));
   EXPECT_TRUE(report.warnings[0].values.empty());
-  EXPECT_EQ(2.0, uvol_test::numberOf(report.warnings[1], "strays"));
+  EXPECT_EQ(2.0, uvol_test::numberOf(report.warnings[1], "far_points"));
 }
 
 TEST(MessageOfAnException, IsItsText)

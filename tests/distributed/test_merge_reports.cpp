@@ -20,15 +20,15 @@ TEST(RankReport, AddsCountsAndKeepsTheLongestTimes)
     Report report;
     report.count("samples", 10 + communicator.rank());
     if (communicator.rank() == 1)
-      report.count("strays", 4);
+      report.count("far_points", 4);
     report.time("read", communicator.rank() == 2 ? 0.5 : 2.0 + communicator.rank());
     report.warnings = {std::string("all of them")};
     if (communicator.rank() == 2)
       report.warnings.push_back(std::string("the last"));
     const Report together =
-        mergeReports(report, communicator, {"samples", "strays", "none"});
+        mergeReports(report, communicator, {"samples", "far_points", "none"});
     const decltype(together.counts) counts{{"samples", 33},
-                                           {"strays", 4},
+                                           {"far_points", 4},
                                            {"largest_samples", 12},
                                            {"largest_strays", 4},
                                            {"largest_none", 0}};
@@ -43,9 +43,9 @@ TEST(RankReport, AddsCountsAndKeepsTheLongestTimes)
 
 TEST(RankReport, WarningsComeBackAsTheyAre)
 {
-  const auto strays = [](double x) {
-    return Message("strays",
-                   {{"strays", 1},
+  const auto far_points = [](double x) {
+    return Message("far_points",
+                   {{"far_points", 1},
                     {"first", 4294967296.0},
                     {"x", x},
                     {"y", -0x1.fffffffffffffp+1023},
@@ -61,8 +61,8 @@ TEST(RankReport, WarningsComeBackAsTheyAre)
       Message("single_point_box", {}), // without values
       aboutFile("my s.csv"),
       aboutFile("other.csv"), // differs in what it is about only
-      strays(1e20),
-      strays(2e20), // in a number
+      far_points(1e20),
+      far_points(2e20), // in a number
       Message("field_of_names", {{"field", "a"}}),
       Message("field_of_names", {{"field", "b"}}), // in a word
       Message("code_of_no_row", {{"field", "b"}}), // in the code

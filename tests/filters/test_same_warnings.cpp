@@ -117,13 +117,13 @@ listSubjects()
        }),
        0.6,
        "conflicting_samples"},
-      {"Strays",
+      {"FarPoints",
        makeBall([](Random&, Samples& samples, std::size_t i) {
          if (i == 7)
            samples.xyz.back() = 1e30;
        }),
        0.6,
-       "strays"},
+       "far_points"},
       {"Missing",
        makeBall([](Random&, Samples& samples, std::size_t i) {
          if (i % 3 == 0)

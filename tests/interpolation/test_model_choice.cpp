@@ -246,7 +246,7 @@ TEST(AnswerSummary, TellsTheRangeOfAllBlocks)
   EXPECT_EQ(field.count, 3u);
   EXPECT_EQ(field.low, -2.0);
   EXPECT_EQ(field.high, 3.0);
-  EXPECT_EQ(field.unsure, 0u);
+  EXPECT_EQ(field.uncertain, 0u);
 }
 
 } // namespace test_model_choice

@@ -104,11 +104,11 @@ TEST(LengthUnit, EndsAtTheFarthestSample)
   Report report;
   const auto samples = SampleSet::build(positions[0].x, 3, all, no_scale, 1, report);
   EXPECT_EQ(positions.size() - 1, samples->size());
-  EXPECT_EQ(1u, report.getCount("strays"));
+  EXPECT_EQ(1u, report.getCount("far_points"));
   ASSERT_EQ(1u, report.warnings.size());
   const auto& warning = report.warnings[0];
-  EXPECT_EQ("strays", warning.code);
-  EXPECT_EQ(1.0, uvol_test::numberOf(warning, "strays"));
+  EXPECT_EQ("far_points", warning.code);
+  EXPECT_EQ(1.0, uvol_test::numberOf(warning, "far_points"));
   EXPECT_EQ(0.0, uvol_test::numberOf(warning, "first"));
   EXPECT_EQ(double(positions[0].x[0]), uvol_test::numberOf(warning, "x"));
   for (const char* const axis : {"y", "z"})

@@ -162,7 +162,7 @@ TEST(SimpleCell, IsUnsureOfPlanesThroughVertices)
   for (const double off : {-1e-13, 0.0, 1e-13}) {
     cell.start(1.0);
     // The bisector passes through the vertex (1, 1, 1), and three others.
-    EXPECT_EQ(SimpleCell::Cut::Unsure, cell.cut({2.0 + off, 0.0, 0.0}, 0));
+    EXPECT_EQ(SimpleCell::Cut::Undecided, cell.cut({2.0 + off, 0.0, 0.0}, 0));
   }
   cell.start(1.0);
   EXPECT_EQ(SimpleCell::Cut::Part, cell.cut({1.99, 0.0, 0.0}, 0));
@@ -189,7 +189,7 @@ TEST(SimpleCell, StaysClosedWhereManyPlanesMeet)
           normal = planes.back().offset + 1e-5 * normal;
         const double limit =
             normal.dot(vertex) + noise * (uniformAt(trial, i, 3) - 0.5);
-        ASSERT_NE(SimpleCell::Cut::Unsure, cell.cut(normal, limit, i));
+        ASSERT_NE(SimpleCell::Cut::Undecided, cell.cut(normal, limit, i));
         planes.push_back({normal, limit, normal.norm(), i});
       }
       cell.dropEmptyFaces();

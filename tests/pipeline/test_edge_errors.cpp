@@ -78,7 +78,7 @@ bend(double x, double y)
   return 0.02 * x * x - 0.03 * x * y + 0.01 * y * y + 0.1 * y;
 }
 
-/** Places are those of the formula, which nothing strays from. */
+/** Places are those of the formula, which nothing deviates from. */
 TEST(EdgeErrors, AreRoundingOnAPlaneAndSmallOnAParaboloid)
 {
   const Roots plane([](double x, double y) { return 0.25 * x - 0.5 * y; });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pictures, by the settings that renderers start with, of surfaces that are not clean,
 // closed and outward: normals that point inwards, open sheets, sheets that nearly
-// touch, isovalues close to each other, strays.
+// touch, isovalues close to each other, outliers.
 #include "render/renderer_setup.h"
 #include <pcl_uvol/common/point_types.h>
 

@@ -335,7 +335,7 @@ TEST(ClusterSurfaces, ChooseADistanceForDensePoints)
   EXPECT_EQ(std::vector<long>{0}, generaOf(surface.mesh));
 }
 
-/** One stray makes the grid so coarse that most points share a cell with others. */
+/** One outlier makes the grid so coarse that most points share a cell with others. */
 TEST(ClusterSurfaces, TellThatMembersShareCells)
 {
   Points points = ballOf(2000, 4);

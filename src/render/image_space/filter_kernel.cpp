@@ -101,7 +101,7 @@ features(const ShadedRow& row,
   for (int i = 0; i < count; i += lanes) {
     const Ints is_surface = load<Floats>(row.opacity + i) > 0.0f;
     const Floats depth = load<Floats>(row.depth + i);
-    // A neighbour that differs alone is a stray.
+    // A neighbour that differs alone is an outlier.
     Floats largest{}, curvature{};
     for (int dy = -1; dy <= 1; ++dy)
       for (int dx = -1; dx <= 1; ++dx) {

@@ -178,7 +178,7 @@ TEST(FilterKernel, FeatureLinesAreWhereNormalsTurnWithinALayer)
         source.row(), stride, count, threshold, layer_distance, lines.row());
     int partly = 0;
     for (int i = 0; i < count; ++i) {
-      double largest = 0.0, turn = 0.0; // the second largest: one is a stray
+      double largest = 0.0, turn = 0.0; // the second largest: one is an outlier
       for (int dy = -1; dy <= 1; ++dy)
         for (int dx = -1; dx <= 1; ++dx) {
           double cosine = 0.0;

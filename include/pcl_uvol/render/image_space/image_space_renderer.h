@@ -60,8 +60,8 @@ public:
   findFootprints(const ProgressCallback& progress = {});
 
   /** \brief What a camera is fitted to: the discs of the points, of radius NaN for
-   * points that are lonely, lie in gaps of the sampling or are not drawn, unless these
-   * are most. Finds the discs unless findFootprints() has.
+   * points that are isolated, lie in gaps of the sampling or are not drawn, unless
+   * these are most. Finds the discs unless findFootprints() has.
    * \param camera that sees all points
    * \param width of the picture, pixels
    * \param height of the picture, pixels

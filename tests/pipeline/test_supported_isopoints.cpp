@@ -13,7 +13,7 @@
 #include <memory>
 #include <string>
 
-namespace test_known_isopoints {
+namespace test_supported_isopoints {
 
 using namespace pcl_uvol;
 
@@ -87,7 +87,7 @@ count(IsoSupport support, const IsosurfaceResult& result)
   return found;
 }
 
-TEST(KnownIsopoints, AreCrossingsOfAJumpAtAnyIsovalue)
+TEST(SupportedIsopoints, AreCrossingsOfAJumpAtAnyIsovalue)
 {
   const auto samples = sampleBall();
   for (const double isovalue : {1.1, 1.75, 2.5, 3.25, 3.9}) {
@@ -101,7 +101,7 @@ TEST(KnownIsopoints, AreCrossingsOfAJumpAtAnyIsovalue)
   }
 }
 
-TEST(KnownIsopoints, DoNotSlipPastSamples)
+TEST(SupportedIsopoints, DoNotSlipPastSamples)
 {
   const auto samples = sampleTube();
   for (const double isovalue : {1.25, 1.35, 1.45}) {
@@ -140,7 +140,7 @@ sampleProfiles()
 
 /** Neighbours of a profile know where the surface crosses it, the space between
  * profiles does not. */
-TEST(KnownIsopoints, AreCrossingsWithLines)
+TEST(SupportedIsopoints, AreCrossingsWithLines)
 {
   const auto samples = sampleProfiles();
   const auto count = [&](bool only_known, bool on_line) {
@@ -198,4 +198,4 @@ INSTANTIATE_TEST_SUITE_P(,
                                            Outliers{true, 1000.0f, 30},
                                            Outliers{true, 9.0f, 30}));
 
-} // namespace test_known_isopoints
+} // namespace test_supported_isopoints

@@ -34,15 +34,15 @@ isKnown(const PointIso& point);
  * the gaps, and the surface does cross there. Predicted isopoints have no edge between
  * measured samples: their error must be at most half of the gap, in the stretched
  * space. */
-class KnownIsopoints {
+class SupportedIsopoints {
 public:
   /** \param samples between which the edges lie, which must outlive this
    * \param parameters that the isopoints were extracted by
    * \param gaps null, if they were not filled */
-  KnownIsopoints(const CloudView& samples,
-                 const IsosurfaceParameters& parameters,
-                 const std::optional<SamplingSummary>& sampling,
-                 const GapFilling* gaps);
+  SupportedIsopoints(const CloudView& samples,
+                     const IsosurfaceParameters& parameters,
+                     const std::optional<SamplingSummary>& sampling,
+                     const GapFilling* gaps);
 
   /** \param isopoints one isovalue after another
    * \return one per isopoint: 1 if it is known */

@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What is said of a surface by what its isopoints rest on.
-#include "pipeline/guessed_isopoints.h"
+#include "pipeline/weak_support.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-namespace test_guessed_isopoints {
+namespace test_weak_support {
 
 using namespace pcl_uvol;
 
 /** The code of what is told of 100 isopoints; "": nothing. */
 std::string
-tell(SurfaceGrounds grounds, LocalDimension most, bool have_border = true)
+tell(SupportCounts counts, LocalDimension most, bool have_border = true)
 {
-  grounds.known = 100;
+  counts.known = 100;
   SamplingSummary sampling;
   sampling.most = most;
-  const auto told = tellGuesses(grounds, sampling, {"guess", {}}, have_border);
+  const auto told = describeWeakSupport(counts, sampling, {"guess", {}}, have_border);
   return told ? told->code : "";
 }
 
@@ -42,4 +42,4 @@ TEST(GuessedIsopoints, HaveNoBorderInAPeriodicBox)
   }
 }
 
-} // namespace test_guessed_isopoints
+} // namespace test_weak_support

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pipeline/sure_fits.h"
+#include "pipeline/reliable_fits.h"
 
 #include "common/parallel.h"
 #include "neighbors/nearest_finder.h"
@@ -28,7 +28,7 @@ constexpr std::size_t voters = 128;
 
 /** What a crossing tells. */
 enum class Vote : std::uint8_t {
-  Kriging, ///< that it is surer
+  Kriging, ///< that it is more certain
   Fit,     ///< that fits are, and that kriging agrees
   FitAlone ///< that fits are, and that kriging is wrong or gains nothing
 };
@@ -49,12 +49,12 @@ voteAt(const PointIso& crossing,
 
 } // namespace
 
-SureFits::SureFits(const pcl::PointCloud<PointIso>& crossings,
-                   const std::vector<std::uint8_t>& are_supported,
-                   const std::vector<KrigedSlope>& kriged,
-                   const Eigen::Array3f& scale,
-                   double spacing,
-                   unsigned threads)
+ReliableFits::ReliableFits(const pcl::PointCloud<PointIso>& crossings,
+                           const std::vector<std::uint8_t>& are_supported,
+                           const std::vector<KrigedSlope>& kriged,
+                           const Eigen::Array3f& scale,
+                           double spacing,
+                           unsigned threads)
 {
   if (crossings.empty())
     return;
@@ -74,7 +74,7 @@ SureFits::SureFits(const pcl::PointCloud<PointIso>& crossings,
                       scale.cast<double>(),
                       spacing);
   }
-  are_surer_.resize(count);
+  are_reliable_.resize(count);
   parallelBlocks(count, vote_block, threads, [&](auto begin, auto end) {
     NearestFinder nearest(*crossings_, voters);
     for (std::size_t i = begin; i < end; ++i) {
@@ -83,13 +83,14 @@ SureFits::SureFits(const pcl::PointCloud<PointIso>& crossings,
       for (std::size_t j = 0; j < row.size; ++j)
         ++counts[static_cast<std::size_t>(votes[row.samples[j]])];
       const auto [by_kriging, agreeing, alone] = counts;
-      are_surer_[i] = agreeing + alone > by_kriging && alone > agreeing;
+      are_reliable_[i] = agreeing + alone > by_kriging && alone > agreeing;
     }
   });
 }
 
 std::vector<std::uint8_t>
-SureFits::find(const std::vector<std::array<double, 3>>& places, unsigned threads) const
+ReliableFits::find(const std::vector<std::array<double, 3>>& places,
+                   unsigned threads) const
 {
   std::vector<std::uint8_t> found(places.size());
   if (!crossings_)
@@ -101,7 +102,7 @@ SureFits::find(const std::vector<std::array<double, 3>>& places, unsigned thread
       const Position place{
           {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)}};
       const auto row = nearest.find(crossings_->getUnit().apply(place), 1.0f);
-      found[i] = are_surer_[row.samples[0]];
+      found[i] = are_reliable_[row.samples[0]];
     }
   });
   return found;

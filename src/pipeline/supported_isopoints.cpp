@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pipeline/known_isopoints.h"
+#include "pipeline/supported_isopoints.h"
 
 #include "common/scalar_field.h"
 #include "pipeline/gap_widths.h"
@@ -18,7 +18,7 @@ namespace {
  * tells as much or less: errors of isopoints without a fit begin there. Of 64,000 dense
  * samples with known truth, also clustered or in cells of 1:100, it keeps 99.7 % or
  * more of the isopoints, of noisy ones after a level set 93 %; between lines of
- * samples what strays little from those around: 19 % on the drill holes. A quarter
+ * samples what deviates little from those around: 19 % on the drill holes. A quarter
  * leaves 56 % of the smoothed ones, and the whole edge keeps nearly everything. */
 constexpr float known_part = 0.5f;
 
@@ -100,10 +100,10 @@ isKnown(const PointIso& point)
   return point.error <= known_part * point.edge_length;
 }
 
-KnownIsopoints::KnownIsopoints(const CloudView& samples,
-                               const IsosurfaceParameters& parameters,
-                               const std::optional<SamplingSummary>& sampling,
-                               const GapFilling* gaps)
+SupportedIsopoints::SupportedIsopoints(const CloudView& samples,
+                                       const IsosurfaceParameters& parameters,
+                                       const std::optional<SamplingSummary>& sampling,
+                                       const GapFilling* gaps)
     : samples_(samples)
     , field_(parameters.field)
     , scale_(parameters.scale)
@@ -118,8 +118,8 @@ KnownIsopoints::KnownIsopoints(const CloudView& samples,
 }
 
 std::vector<std::uint8_t>
-KnownIsopoints::find(const pcl::PointCloud<PointIso>& isopoints,
-                     const IsoEdges& edges) const
+SupportedIsopoints::find(const pcl::PointCloud<PointIso>& isopoints,
+                         const IsoEdges& edges) const
 {
   std::vector<std::uint8_t> jumps(isopoints.size());
   if (lies_all_around_)
@@ -139,7 +139,9 @@ KnownIsopoints::find(const pcl::PointCloud<PointIso>& isopoints,
 }
 
 bool
-KnownIsopoints::contain(const PointIso& point, const IsoEdge& edge, bool is_jump) const
+SupportedIsopoints::contain(const PointIso& point,
+                            const IsoEdge& edge,
+                            bool is_jump) const
 {
   if (has(IsoSupport::Predicted, point)) {
     // The normal is a covector: of a unit length in the stretched space it is longer by

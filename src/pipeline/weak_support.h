@@ -24,7 +24,7 @@ enum class SurfaceRole {
 };
 
 /** \brief How many isopoints rest on what, of those whose support is known. */
-struct SurfaceGrounds {
+struct SupportCounts {
   std::size_t known = 0;
   std::size_t at_border = 0; ///< on a rim, on good fits: no line of samples is there
   /** On other rims, or in gaps that good fits bridge: where samples lie all around, at
@@ -40,20 +40,20 @@ struct SurfaceGrounds {
  * \param is_on_cap 1 for each vertex that closes a mesh, which rests on nothing; empty:
  * there are none
  * \param box outside of which isopoints are images of others */
-SurfaceGrounds
-findGrounds(const pcl::PointCloud<PointIso>& isopoints,
-            const IsoEdges& edges,
-            const IsopointChoice& choice,
-            const std::vector<std::uint8_t>& is_on_cap,
-            const PeriodicBox& box);
+SupportCounts
+findSupportCounts(const pcl::PointCloud<PointIso>& isopoints,
+                  const IsoEdges& edges,
+                  const IsopointChoice& choice,
+                  const std::vector<std::uint8_t>& is_on_cap,
+                  const PeriodicBox& box);
 
 /** \brief What those rest on that were examined. */
-PCL_UVOL_EXPORTS SurfaceGrounds
-findGrounds(const SurfaceTally& tally);
+PCL_UVOL_EXPORTS SupportCounts
+findSupportCounts(const SurfaceTally& tally);
 
 /** \brief What the isopoints of all processes rest on. By all of them. */
-SurfaceGrounds
-addTogether(const SurfaceGrounds& own, Communicator& communicator);
+SupportCounts
+addTogether(const SupportCounts& own, Communicator& communicator);
 
 /** \brief A message where most isopoints do not rest on samples around them; else none.
  * \param sampling where samples lie all around, rims are the border of these
@@ -61,15 +61,15 @@ addTogether(const SurfaceGrounds& own, Communicator& communicator);
  * \param have_border false of samples in a box that repeats along all axes: their rims
  * are gaps */
 PCL_UVOL_EXPORTS std::optional<Message>
-tellGuesses(const SurfaceGrounds& grounds,
-            const std::optional<SamplingSummary>& sampling,
-            Message guess,
-            bool have_border = true);
+describeWeakSupport(const SupportCounts& counts,
+                    const std::optional<SamplingSummary>& sampling,
+                    Message guess,
+                    bool have_border = true);
 
 /** \brief The same of the border of a cluster, which lies somewhere between its samples
  * and the others. */
 std::optional<Message>
-tellGuessedBorder(const SurfaceGrounds& grounds);
+describeWeakBorder(const SupportCounts& counts);
 
 /** \brief Whether "scale" and "gaps" may help where samples leave much open: what was
  * not asked for. */

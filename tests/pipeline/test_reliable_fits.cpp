@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Gaps that are none: where fits to the measured samples are surer of the surface than
-// kriging is, nothing is predicted, and what they tell stays.
+// Gaps that are none: where fits to the measured samples are more certain of the
+// surface than kriging is, nothing is predicted, and what they tell stays.
 #include "pipeline/gap_filling.h"
+#include "pipeline/reliable_fits.h"
 #include "pipeline/run_pipeline.h"
-#include "pipeline/sure_fits.h"
 #include "support/environment.h"
 #include "support/messages.h"
 #include "support/stretched_samples.h"
@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-namespace test_sure_fits {
+namespace test_reliable_fits {
 
 using namespace pcl_uvol;
 
@@ -50,7 +50,7 @@ makeSlope(double value, double deviation)
 
 const Eigen::Array3f unscaled(1.0f, 1.0f, 1.0f);
 
-TEST(SureFits, AreFoundWhereMostAroundContradictKriging)
+TEST(ReliableFits, AreFoundWhereMostAroundContradictKriging)
 {
   const std::size_t count = 4000;
   auto crossings = makeCrossings(count);
@@ -66,7 +66,8 @@ TEST(SureFits, AreFoundWhereMostAroundContradictKriging)
       places.push_back({x, y, 0.1});
   std::vector<std::uint8_t> supported(count);
   const auto find = [&](double spacing, unsigned threads) {
-    return detail::SureFits(crossings, supported, kriged, unscaled, spacing, threads)
+    return detail::ReliableFits(
+               crossings, supported, kriged, unscaled, spacing, threads)
         .find(places, threads);
   };
   const auto found = find(0.1, 2);
@@ -88,16 +89,16 @@ TEST(SureFits, AreFoundWhereMostAroundContradictKriging)
   EXPECT_EQ(found, find(0x1p30 * 0.1, 3));
 }
 
-TEST(SureFits, AreNotWithoutFitsOrWithoutKriging)
+TEST(ReliableFits, AreNotWithoutFitsOrWithoutKriging)
 {
   auto crossings = makeCrossings(300);
   const auto isSure = [&](double deviation) {
-    return detail::SureFits(crossings,
-                            std::vector<std::uint8_t>(crossings.size(), 0),
-                            {crossings.size(), makeSlope(1.0, deviation)},
-                            unscaled,
-                            0.1,
-                            1)
+    return detail::ReliableFits(crossings,
+                                std::vector<std::uint8_t>(crossings.size(), 0),
+                                {crossings.size(), makeSlope(1.0, deviation)},
+                                unscaled,
+                                0.1,
+                                1)
                .find({{0.1, 0.2, 0.3}}, 1)
                .front() != 0;
   };
@@ -145,7 +146,7 @@ expectSame(const pcl::PointCloud<PointIso>& expected,
 
 /** Cells as flow solvers have them at a wall: a hundred times longer than thick, and
  * taken for lines. The field is as smooth as they are small. */
-TEST(SureFits, LeaveCellsAtAWallAsTheyAre)
+TEST(ReliableFits, LeaveCellsAtAWallAsTheyAre)
 {
   constexpr int side = 24;
   for (const std::string shape : {"wall", "curved"}) {
@@ -159,9 +160,10 @@ TEST(SureFits, LeaveCellsAtAWallAsTheyAre)
     EXPECT_EQ(0u, filled.gaps->predicted);
     const auto told = uvol_test::findWarning(filled, "unfilled_gaps");
     ASSERT_TRUE(told);
-    EXPECT_EQ("fits to the measured samples are surer of the surface across them than "
-              "kriging is",
-              uvol_test::wordOf(*told, "reason"));
+    EXPECT_EQ(
+        "fits to the measured samples are more certain of the surface across them than "
+        "kriging is",
+        uvol_test::wordOf(*told, "reason"));
     const auto points = uvol_test::toIsopoints(filled);
     expectSame(uvol_test::toIsopoints(as_it_is), points);
     auto deviations = uvol_test::deviations(field, stretched.inIndexSpace(points));
@@ -225,7 +227,7 @@ predict(const pcl::PointCloud<pcl::PointXYZI>& cloud)
 
 /** The spacing of what is predicted is a quarter of that of the samples here, which are
  * most: they would all have some between them. */
-TEST(SureFits, PredictBetweenProfilesAndNotAmongSamplesAllAround)
+TEST(ReliableFits, PredictBetweenProfilesAndNotAmongSamplesAllAround)
 {
   auto cloud = makeProfiles(150);
   const Predicted alone = predict(cloud);
@@ -271,7 +273,7 @@ makeCellsAndProfiles(float unit)
   return cloud;
 }
 
-TEST(SureFits, PredictBetweenProfilesAndNotInStretchedCells)
+TEST(ReliableFits, PredictBetweenProfilesAndNotInStretchedCells)
 {
   const auto cloud = makeCellsAndProfiles(1.0f);
   const Predicted predicted = predict(cloud);
@@ -295,7 +297,7 @@ TEST(SureFits, PredictBetweenProfilesAndNotInStretchedCells)
   expectSame(as_it_is, takeCells(filled));
 }
 
-TEST(SureFits, PredictTheSameOnThreadsAndInUnits_long)
+TEST(ReliableFits, PredictTheSameOnThreadsAndInUnits_long)
 {
   const auto cloud = makeCellsAndProfiles(1.0f);
   const auto samples = toDataset(cloud);
@@ -309,4 +311,4 @@ TEST(SureFits, PredictTheSameOnThreadsAndInUnits_long)
   EXPECT_EQ(0x1p20 * predicted.least_x, large.least_x);
 }
 
-} // namespace test_sure_fits
+} // namespace test_reliable_fits

@@ -16,7 +16,7 @@
 
 #include <numeric>
 
-namespace test_strays {
+namespace test_far_points {
 
 using namespace uvol_test;
 using pcl_uvol::Dataset;
@@ -51,19 +51,19 @@ evolveField(const pcl_uvol::CloudView& cloud, const std::string& field, double i
       cloud, all, parameters, 0, {}, false, 0, report);
 }
 
-TEST(Strays, AreLeftOutCountedAndNamed)
+TEST(FarPoints, AreLeftOutCountedAndNamed)
 {
   const auto cloud = makeSamples(0);
   Report report;
   const IsosurfaceParameters settings = settingsOf(Interpolation::Fit);
   const Isopoints expected = extract(cloud, settings);
   expectSame(expected, extract(withStrays(*cloud, {-1e20f}), settings, &report));
-  EXPECT_EQ(1u, report.getCount("strays"));
+  EXPECT_EQ(1u, report.getCount("far_points"));
   ASSERT_EQ(1u, report.warnings.size());
   EXPECT_EQ(
       pcl_uvol::Message(
-          "strays",
-          {{"strays", 1}, {"first", 7}, {"x", -1e20f}, {"y", 1e20f}, {"z", 1.0f}}),
+          "far_points",
+          {{"far_points", 1}, {"first", 7}, {"x", -1e20f}, {"y", 1e20f}, {"z", 1.0f}}),
       report.warnings[0]);
   EXPECT_EQ(
       "1 outlier is ignored, 1e12 times farther out than most points. It is point 7 "
@@ -71,35 +71,35 @@ TEST(Strays, AreLeftOutCountedAndNamed)
       report.warnings[0].text());
   const std::vector<float> many(1000, 3.4e38f);
   expectSame(expected, extract(withStrays(*cloud, many), settings, &report));
-  EXPECT_EQ(1000u, report.getCount("strays"));
+  EXPECT_EQ(1000u, report.getCount("far_points"));
 }
 
-TEST(Strays, WithinReachStay)
+TEST(FarPoints, WithinReachStay)
 {
   const auto cloud = makeSamples(0);
   Report report;
   const auto isopoints =
       extract(withStrays(*cloud, {1e12f}), settingsOf(Interpolation::Fit), &report);
-  EXPECT_EQ(0u, report.getCount("strays"));
+  EXPECT_EQ(0u, report.getCount("far_points"));
   EXPECT_GT(isopoints.size(), 400u);
 }
 
-TEST(Strays, AreTheSameOnRanksAndDisks)
+TEST(FarPoints, AreTheSameOnRanksAndDisks)
 {
   const auto cloud = withStrays(*makeSamples(0, 40000), {1e20f, -3e30f, 1e20f});
   const IsosurfaceParameters settings = settingsOf(Interpolation::Fit);
   Report alone;
   const Isopoints expected = extract(cloud, settings, &alone);
-  EXPECT_EQ(3u, alone.getCount("strays"));
+  EXPECT_EQ(3u, alone.getCount("far_points"));
   Dataset dataset;
   pcl::toPCLPointCloud2(*cloud, dataset.cloud);
   Report report;
   expectSame(expected, extractFromDisk(dataset, settings, report));
-  EXPECT_EQ(3u, report.getCount("strays"));
+  EXPECT_EQ(3u, report.getCount("far_points"));
   EXPECT_EQ(alone.warnings, report.warnings);
 }
 
-TEST(Strays, HarmNoStage)
+TEST(FarPoints, HarmNoStage)
 {
   const auto cloud = withStrays(*makeSamples(0), {1e20f, -1e34f});
   std::vector<int> all(cloud->size());
@@ -109,7 +109,7 @@ TEST(Strays, HarmNoStage)
   const auto gradients =
       pcl_uvol::detail::estimateGradients(view, all, {}, nullptr, 0, report);
   EXPECT_TRUE(std::isnan(gradients[7].gradient_x));
-  EXPECT_EQ(2u, report.getCount("strays"));
+  EXPECT_EQ(2u, report.getCount("far_points"));
   const auto level_set = evolveField(view, "intensity", sphere_radius);
   EXPECT_TRUE(std::isnan(level_set.phi[7]));
   EXPECT_TRUE(level_set.summary.converged);
@@ -142,4 +142,4 @@ TEST(Scale, BeyondFloatIsRefusedOrWorks)
   EXPECT_THROW(extract(makeSamples(0), settings), pcl_uvol::InvalidArgument);
 }
 
-} // namespace test_strays
+} // namespace test_far_points
