@@ -278,9 +278,14 @@ run(int argc, char** argv, uvol_tools::SeriesStep* step)
   uvol_tools::ProgressBar bar;
   report.progress = std::ref(bar);
   auto total = std::make_unique<StepTimer>(report, "total");
-  Dataset samples = uvol_tools::loadPoints(
-      arguments.input, report, of_samples, arguments.reading.getWhere());
-  report.count("points", samples.cloud.width + report.getCount("removed_by_where"));
+  std::size_t points = 0;
+  Dataset samples = uvol_tools::loadPoints(arguments.input,
+                                           report,
+                                           of_samples,
+                                           arguments.reading.getWhere(),
+                                           options.threads(),
+                                           &points);
+  report.count("points", points);
   const pcl_uvol::SamplesInBox boxed(samples,
                                      arguments.periodic.findSides(samples, report),
                                      Eigen::Array3f::Ones(),

@@ -293,13 +293,13 @@ class Extractor:
     def extract(self, *, iso, field="", scale=None, rotate=None, outside="lower", interpolation="auto",
                 neighbors="kdtree", voronoi_cells=0, criterion="kept", smooth=False, mu=None, level_set=None,
                 normals="auto", normal_neighbors=30, max_error=None, drop_bridged=False, fill_gaps=False,
-                validate=0, validate_by="random", mesh=False, periodic=None, periodic_mesh="cut", threads=0,
-                progress=None):
+                outside_value=None, validate=0, validate_by="random", mesh=False, periodic=None,
+                periodic_mesh="cut", threads=0, progress=None):
         """Extract the isosurfaces of a field.
 
         Parameters
         ----------
-        iso, field, scale, rotate, outside, interpolation, neighbors, voronoi_cells, criterion, smooth, mu, level_set, normals, normal_neighbors, max_error, drop_bridged, fill_gaps, validate, validate_by, mesh, periodic, periodic_mesh, threads, progress
+        iso, field, scale, rotate, outside, interpolation, neighbors, voronoi_cells, criterion, smooth, mu, level_set, normals, normal_neighbors, max_error, drop_bridged, fill_gaps, outside_value, validate, validate_by, mesh, periodic, periodic_mesh, threads, progress
             As those of `isosurface`.
 
         Returns
@@ -342,6 +342,7 @@ class Extractor:
             "automatic_max_error": _is_auto(max_error),
             "drop_bridged": drop_bridged,
             "fill_gaps": fill_gaps,
+            "outside_value": outside_value,
             "validation": _validation(validate, validate_by),
             "mesh": _meshing(mesh),
             "periodic": sides,
@@ -444,6 +445,11 @@ def isosurface(points, fields=None, **options):
         from both: isopoints there have support 4, their `error` is the standard deviation over the slope, and `confidence` the part of
         the variance that the samples explain; where that is nothing there are none with
         interpolation "auto". `report["gaps"]` tells what was done.
+    outside_value : float, optional
+        Value of the field outside of the data, where it is known to end there, as the
+        density of a liquid does: samples of that value are added about one spacing
+        outside of the others, and surfaces are closed there (`Samples.outer_layer` gives
+        the samples). Interpolation "auto" is then "linear", but for meshes.
     validate : int
         Parts of a hold-out test, at least 2; 0: none. validate_by is "random", "blocks"
         or the name of a field.

@@ -269,11 +269,12 @@ const MessageText error_rows[] = {
     {"edge_length_not_allowed",
      "The edge length {length} is not allowed: it must be finite and not negative."},
     {"mesh_of_linear_interpolation",
-     "A mesh cannot be combined with linear interpolation: its topology would not be "
-     "that of the field. Try: interpolation by fits."},
+     "A mesh cannot be combined with {-interpolation linear}: its topology would not "
+     "be "
+     "that of the field."},
     {"mesh_of_voronoi_neighbors",
-     "A mesh cannot be combined with neighbours from Voronoi diagrams: it uses the "
-     "cells of the kd-tree."},
+     "A mesh cannot be combined with {-neighbors voronoi} or {-neighbors exact}: it "
+     "uses the cells of the kd-tree."},
     {"contrary_triangles",
      "Triangles contradict each other about the outside at {edges} edges, so the "
      "surface has no volume. Try: repair the mesh."},
@@ -422,14 +423,15 @@ const MessageText error_rows[] = {
     {"no_sample_with_value", "No sample has a position and a finite value of {field}."},
     {"not_out_of_core",
      "Level sets, automatic or rotated scales, cross-validation, meshes, filled gaps, "
-     "periodic boxes and Voronoi neighbours require all samples in memory."},
+     "values outside, periodic boxes and Voronoi neighbours require all samples in "
+     "memory."},
     {"no_field_for_gaps",
      "Gaps cannot be filled in the field '{field}': a field of single numbers is "
      "required. The fields are {fields}."},
     {"pipeline_without_input", "IsosurfacePipeline has no input. Try: call setInput."},
     {"linear_with_fitted_normals",
-     "Linear interpolation cannot be combined with normals from fits, because it makes "
-     "no fits."},
+     "{-normals fit} cannot be combined with {-interpolation linear}, which makes no "
+     "fits."},
     {"hold_out_of_one_fold",
      "Cross-validation with 1 fold leaves no samples. Try: at least 2 folds."},
     {"few_normal_neighbors",
@@ -447,14 +449,21 @@ const MessageText error_rows[] = {
     {"gaps_in_periodic_box",
      "{-fill-gaps} cannot be combined with {-periodic}: samples predicted by kriging "
      "would have no images."},
+    {"value_outside_of_periodic_box",
+     "{-outside-value} cannot be combined with {-periodic}: a periodic box has no "
+     "outside."},
+    {"value_outside_not_finite", "{-outside-value} is {value}: it must be finite."},
+    {"gaps_beside_value_outside",
+     "{-fill-gaps} cannot be combined with {-outside-value}: kriging would predict the "
+     "step to that value."},
     {"nothing_to_weld",
      "Only the mesh of a periodic box can be welded across the faces."},
     {"mesh_without_points",
      "A mesh cannot be combined with {-max-error} or {-drop-bridged}: it keeps all "
      "vertices."},
     {"mesh_with_pca_normals",
-     "A mesh cannot be combined with normals from principal components: its vertices "
-     "have the normals of the fits."},
+     "A mesh cannot be combined with {-normals pca}: its vertices have the normals of "
+     "the fits."},
     {"distributed_scale",
      "An automatic scale is not available for distributed samples, because no process "
      "has all of them. Try: three factors."},
@@ -469,6 +478,9 @@ const MessageText error_rows[] = {
     {"distributed_gaps",
      "Gaps cannot be filled in samples of several processes, because no process has "
      "all samples."},
+    {"distributed_value_outside",
+     "{-outside-value} is not available for samples of several processes, because no "
+     "process knows where the samples end."},
     {"distributed_hold_out",
      "Cross-validation is not available for samples of several processes."},
     {"distributed_normals",

@@ -437,7 +437,7 @@ const MessageText warning_rows[] = {
     {"no_finite_points", "{path} has no point with finite x, y, z."},
     {"no_coordinate_columns",
      "{path} does not name coordinate columns. Try: {-xyz} to choose them."},
-    {"fits_swing",
+    {"fits_oscillate",
      "The fits oscillate at the jump to {-outside-value} and may create spurious "
      "pieces. Try: {-interpolation linear}, for points."},
     {"nothing_to_draw", "There is nothing to draw. {path} was not written."},

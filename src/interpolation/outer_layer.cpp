@@ -89,6 +89,7 @@ findOuter(const SampleSet& samples, unsigned threads, Report& report)
 
 void
 addOuterLayer(Dataset& dataset,
+              const pcl::Indices* use,
               const std::string& field,
               double value,
               unsigned threads,
@@ -107,12 +108,18 @@ addOuterLayer(Dataset& dataset,
     throw InvalidArgument("value_outside_not_held",
                           {{"field", shortenText(field)}, {"value", value}});
   const CloudView cloud = viewOf(dataset.cloud);
-  std::vector<std::uint32_t> use(cloud.count);
-  std::iota(use.begin(), use.end(), 0u);
+  std::vector<std::uint32_t> counting(cloud.count);
+  std::iota(counting.begin(), counting.end(), 0u);
+  if (use)
+    counting.assign(use->begin(), use->end());
   Report own; // the samples are counted by whoever uses them
   own.progress = report.progress;
-  const auto samples = SampleSet::build(
-      cloud.xyz(0), cloud.stride(), use, Position{{1.0f, 1.0f, 1.0f}}, threads, own);
+  const auto samples = SampleSet::build(cloud.xyz(0),
+                                        cloud.stride(),
+                                        counting,
+                                        Position{{1.0f, 1.0f, 1.0f}},
+                                        threads,
+                                        own);
   if (samples->size() <= empty_neighbors)
     throw InvalidArgument("few_samples_for_value_outside",
                           {{"samples", empty_neighbors}});

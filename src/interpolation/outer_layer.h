@@ -6,6 +6,8 @@
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/stage.h>
 
+#include <pcl/types.h>
+
 #include <string>
 
 namespace pcl_uvol {
@@ -17,6 +19,8 @@ namespace pcl_uvol {
  * in which a ball is empty that is as large as the one with its 24 neighbours. Other
  * fields are those of that sample. Hollows larger than such a ball count as outside.
  *
+ * \param use points that count; null: all
+ *
  * \param field of single numbers
  *
  * \param report gets the count "outer_samples"
@@ -25,6 +29,7 @@ namespace pcl_uvol {
  * a value that it cannot hold, and for a cloud of fewer than 25 distinct samples */
 PCL_UVOL_EXPORTS void
 addOuterLayer(Dataset& dataset,
+              const pcl::Indices* use,
               const std::string& field,
               double value,
               unsigned threads,

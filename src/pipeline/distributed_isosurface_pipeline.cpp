@@ -33,6 +33,8 @@ checkDistributed(const IsosurfacePipelineParameters& parameters)
     throw InvalidArgument("distributed_level_set", {});
   if (parameters.fill_gaps)
     throw InvalidArgument("distributed_gaps", {});
+  if (parameters.outside_value)
+    throw InvalidArgument("distributed_value_outside", {});
   if (parameters.validation.folds > 0)
     throw InvalidArgument("distributed_hold_out", {});
   if (parameters.normals != NormalMethod::Auto &&

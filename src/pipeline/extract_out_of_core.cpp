@@ -128,8 +128,8 @@ public:
   enter(IsosurfacePipelineParameters& parameters, Report&) override
   {
     if (parameters.smooth || parameters.automatic_scale || parameters.mesh ||
-        parameters.fill_gaps || parameters.validation.folds > 0 ||
-        (parameters.periodic > 0.0).any() ||
+        parameters.fill_gaps || parameters.outside_value ||
+        parameters.validation.folds > 0 || (parameters.periodic > 0.0).any() ||
         detail::StretchAxes(parameters.rotation).areTurned() ||
         parameters.isosurface.neighbors != NeighborSource::KdTree)
       throw InvalidArgument("not_out_of_core", {});

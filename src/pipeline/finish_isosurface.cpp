@@ -218,6 +218,7 @@ finishIsosurface(const Dataset& samples,
   result.edges = std::move(edges);
   result.sampling = sampling;
   result.field = parameters.isosurface.field;
+  result.interpolation = parameters.isosurface.interpolation;
   result.scale = parameters.isosurface.scale;
   result.errors = summarizeErrors(isopoints);
   if (parameters.mesh)

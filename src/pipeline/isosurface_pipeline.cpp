@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/memory.h"
+#include "interpolation/outer_layer.h"
 #include "pipeline/extract_surface.h"
 #include "pipeline/gap_filling.h"
 #include "pipeline/hold_out.h"
@@ -10,6 +11,8 @@
 #include "pipeline/turned_axes.h"
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
+#include <memory>
+#include <numeric>
 #include <utility>
 
 namespace pcl_uvol {
@@ -36,6 +39,36 @@ resolve(const PipelineInput& input,
                        own);
   parameters.isosurface.scale = choice->scale;
   return parameters.isosurface;
+}
+
+/** Adds samples of the value outside, as asked for. */
+void
+closeOutside(PipelineInput& input, unsigned threads, Report& report)
+{
+  IsosurfacePipelineParameters& parameters = input.parameters;
+  if (!parameters.outside_value)
+    return;
+  parameters.isosurface.interpolation = interpolationOf(parameters);
+  if (parameters.isosurface.interpolation != Interpolation::Linear)
+    report.warn("fits_oscillate");
+  findField(*input.samples, parameters);
+  const auto closed = std::make_shared<Dataset>(*input.samples);
+  addOuterLayer(*closed,
+                input.use.get(),
+                parameters.isosurface.field,
+                *parameters.outside_value,
+                threads,
+                report);
+  if (input.use) {
+    const std::size_t given = input.use->size();
+    input.use = pcl::make_shared<pcl::Indices>(*input.use);
+    input.use->resize(given + closed->cloud.width - input.samples->cloud.width);
+    std::iota(input.use->begin() + static_cast<std::ptrdiff_t>(given),
+              input.use->end(),
+              static_cast<pcl::index_t>(input.samples->cloud.width));
+  }
+  input.samples = closed;
+  parameters.outside_value.reset();
 }
 
 /** What a pipeline works on before the first step. */
@@ -93,6 +126,7 @@ public:
   enter(IsosurfacePipelineParameters& parameters, Report& report) override
   {
     checkMemoryOf("An isosurface", countPoints(input_), estimateBytes(input_));
+    closeOutside(input_, threads_, report);
     axes_.emplace(input_);
     input_.parameters.isosurface = resolve(input_, threads_, scale_choice_);
     const ValidationParameters& validation = input_.parameters.validation;

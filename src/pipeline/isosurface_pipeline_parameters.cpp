@@ -3,10 +3,21 @@
 #include "common/stretch_axes.h"
 #include "neighbors/periodic_box.h"
 #include "pipeline/periodic_surface.h"
+#include "pipeline/pipeline_input.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>
 
+#include <cmath>
+
 namespace pcl_uvol {
+
+Interpolation
+interpolationOf(const IsosurfacePipelineParameters& parameters)
+{
+  const Interpolation asked = parameters.isosurface.interpolation;
+  const bool ends = parameters.outside_value && !parameters.mesh;
+  return ends && asked == Interpolation::Auto ? Interpolation::Linear : asked;
+}
 
 std::string
 IsosurfacePipelineParameters::toJson() const
@@ -24,7 +35,7 @@ void
 checkParameters(const IsosurfacePipelineParameters& parameters)
 {
   checkParameters(parameters.isosurface);
-  const bool fits = parameters.isosurface.interpolation != Interpolation::Linear;
+  const bool fits = interpolationOf(parameters) != Interpolation::Linear;
   if (parameters.normals == NormalMethod::Fit && !fits)
     throw InvalidArgument("linear_with_fitted_normals", {});
   if (parameters.validation.folds == 1)
@@ -37,6 +48,11 @@ checkParameters(const IsosurfacePipelineParameters& parameters)
                           {{"error", *parameters.max_error}});
   if (parameters.max_error && parameters.automatic_max_error)
     throw InvalidArgument("two_largest_errors", {});
+  if (parameters.outside_value && !std::isfinite(*parameters.outside_value))
+    throw InvalidArgument("value_outside_not_finite",
+                          {{"value", *parameters.outside_value}});
+  if (parameters.outside_value && parameters.fill_gaps)
+    throw InvalidArgument("gaps_beside_value_outside", {});
   const bool is_turned = detail::StretchAxes(parameters.rotation).areTurned();
   checkPeriodic(sidesOf(parameters));
   if (isPeriodic(sidesOf(parameters)) && is_turned)
@@ -45,6 +61,8 @@ checkParameters(const IsosurfacePipelineParameters& parameters)
     throw InvalidArgument("hold_out_in_periodic_box", {});
   if (isPeriodic(sidesOf(parameters)) && parameters.fill_gaps)
     throw InvalidArgument("gaps_in_periodic_box", {});
+  if (isPeriodic(sidesOf(parameters)) && parameters.outside_value)
+    throw InvalidArgument("value_outside_of_periodic_box", {});
   if (parameters.periodic_mesh == PeriodicMesh::Weld &&
       (!parameters.mesh || !isPeriodic(sidesOf(parameters))))
     throw InvalidArgument("nothing_to_weld", {});

@@ -67,6 +67,8 @@ pipelineBytes(double samples,
   }
   if ((parameters.rotation != 0.0).any()) // a turned copy
     bytes += point_step * samples;
+  if (parameters.outside_value) // a copy with further samples
+    bytes += point_step * samples;
   if (parameters.isosurface.neighbors == NeighborSource::Exact)
     bytes += ExactNeighbors::bytesPerSample() * samples;
   if (parameters.fill_gaps)

@@ -65,7 +65,7 @@ TEST(OuterLayer, LiesAroundABall)
   for (const double unit : {1.0, 0x1p-60, 0x1p40}) {
     Dataset ball = makeBall(count, unit);
     Report report;
-    addOuterLayer(ball, "f", -2.5, 1, report);
+    addOuterLayer(ball, nullptr, "f", -2.5, 1, report);
     ASSERT_EQ(count + report.getCount("outer_samples"), ball.cloud.width);
     EXPECT_GT(report.getCount("outer_samples"), 1000u);
     for (std::size_t i = 0; i < ball.cloud.width; ++i) {
@@ -83,7 +83,7 @@ TEST(OuterLayer, FillsAHollow)
 {
   Dataset shell = makeBall(20000, 1.0, 0.5);
   Report report;
-  addOuterLayer(shell, "f", 0.0, 1, report);
+  addOuterLayer(shell, nullptr, "f", 0.0, 1, report);
   std::size_t within = 0;
   for (std::size_t i = 20000; i < shell.cloud.width; ++i)
     within += radiusOf(shell, i) < 0.5 ? 1 : 0;
@@ -94,8 +94,8 @@ TEST(OuterLayer, DoesNotDependOnThreads)
 {
   Dataset one = makeBall(4000, 1.0), four = one;
   Report report;
-  addOuterLayer(one, "f", 0.0, 1, report);
-  addOuterLayer(four, "f", 0.0, 4, report);
+  addOuterLayer(one, nullptr, "f", 0.0, 1, report);
+  addOuterLayer(four, nullptr, "f", 0.0, 4, report);
   EXPECT_TRUE(one.cloud.data == four.cloud.data);
 }
 
@@ -103,12 +103,12 @@ TEST(OuterLayer, RefusesWhatCannotBe)
 {
   Dataset ball = makeBall(100, 1.0), few = makeBall(24, 1.0);
   Report report;
-  EXPECT_THROW(addOuterLayer(ball, "g", 0.0, 1, report), InvalidArgument);
-  EXPECT_THROW(addOuterLayer(ball, "id", 0.5, 1, report), InvalidArgument);
-  EXPECT_THROW(addOuterLayer(ball, "id", 1e10, 1, report), InvalidArgument);
-  EXPECT_THROW(addOuterLayer(few, "f", 0.0, 1, report), InvalidArgument);
+  EXPECT_THROW(addOuterLayer(ball, nullptr, "g", 0.0, 1, report), InvalidArgument);
+  EXPECT_THROW(addOuterLayer(ball, nullptr, "id", 0.5, 1, report), InvalidArgument);
+  EXPECT_THROW(addOuterLayer(ball, nullptr, "id", 1e10, 1, report), InvalidArgument);
+  EXPECT_THROW(addOuterLayer(few, nullptr, "f", 0.0, 1, report), InvalidArgument);
   EXPECT_EQ(100u, ball.cloud.width);
-  EXPECT_NO_THROW(addOuterLayer(ball, "id", 3.0, 1, report));
+  EXPECT_NO_THROW(addOuterLayer(ball, nullptr, "id", 3.0, 1, report));
 }
 
 } // namespace test_outer_layer

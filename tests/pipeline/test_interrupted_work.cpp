@@ -261,7 +261,7 @@ TEST(InterruptedWork, FurtherSamplesAndFields)
         Report report;
         report.progress = progress;
         Dataset dataset = *ball.samples;
-        addOuterLayer(dataset, "intensity", 0.0, threads, report);
+        addOuterLayer(dataset, nullptr, "intensity", 0.0, threads, report);
         return dataset.cloud.data;
       },
       2);

@@ -294,8 +294,14 @@ def test_densities_and_outer_layers_are_those_of_uvol_convert(tmp_path, run_tool
     run_tool("uvol_isosurface", "in.ply", "tool.ply", "-iso", "100", "-density", "-outside-value", "0")
     closed = uvol.read(tmp_path / "in.ply").density().outer_layer(0.0, "sph_density")
     assert len(closed) > 400 and (closed["sph_density"][400:] == 0).all()
-    uvol.isosurface(closed, field="sph_density", iso=100, interpolation="linear").save(tmp_path / "module.ply")
-    assert (tmp_path / "module.ply").read_bytes() == (tmp_path / "tool.ply").read_bytes()
+    told = {"field": "sph_density", "iso": 100}
+    for surface in (uvol.isosurface(closed, interpolation="linear", **told),
+                    uvol.isosurface(uvol.read(tmp_path / "in.ply").density(), outside_value=0.0, **told)):
+        surface.save(tmp_path / "module.ply")
+        assert (tmp_path / "module.ply").read_bytes() == (tmp_path / "tool.ply").read_bytes()
+    with pytest.warns(uvol.ResultWarning) as heard:
+        uvol.isosurface(uvol.read(tmp_path / "in.ply").density(), outside_value=0.0, interpolation="fit", **told)
+    assert "fits_oscillate" in [warning.message.code for warning in heard]
     with pytest.raises(ValueError, match="smoothing length"):
         closed.density(-1)
     with pytest.raises(ValueError, match="'q' is not one"):

@@ -20,20 +20,21 @@ PeriodicOption::declare(Options& options)
       .rare();
 }
 
-void
+std::array<double, 3>
 PeriodicOption::check(bool is_turned) const
 {
   if (isAskedFor() && is_turned)
     throw UsageError("-periodic cannot be combined with -rotate or a -scale of nine "
                      "numbers: the sides of the box are along x, y and z.");
   if (text_.empty() || text_ == "header")
-    return;
+    return {};
   const std::vector<double> sides = parseNumbers("periodic", text_, 3);
   if (*std::min_element(sides.begin(), sides.end()) < 0.0 ||
       *std::max_element(sides.begin(), sides.end()) <= 0.0)
     throw UsageError(
         "-periodic takes three non-negative sides, at least one of them above 0, or "
         "the word header.");
+  return {{sides[0], sides[1], sides[2]}};
 }
 
 std::array<double, 3>
@@ -45,10 +46,8 @@ PeriodicOption::findSides(const pcl_uvol::Dataset& samples,
       report.warn("box_in_file", {{"sides", joined(samples.box)}});
     return {};
   }
-  if (text_ != "header") {
-    const std::vector<double> sides = parseNumbers("periodic", text_, 3);
-    return {{sides[0], sides[1], sides[2]}};
-  }
+  if (text_ != "header")
+    return check();
   if (!pcl_uvol::isPeriodic(samples.box))
     throw pcl_uvol::InvalidArgument("The file names no box: give its sides, as in "
                                     "-periodic 100,100,100.");

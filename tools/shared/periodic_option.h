@@ -28,8 +28,10 @@ public:
    *
    * \param is_turned whether the tool turns the axes
    *
+   * \return the sides as far as they are known: 0 without the option, and for header
+   *
    * \throws UsageError */
-  void
+  std::array<double, 3>
   check(bool is_turned = false) const;
 
   /** \brief The sides of the box of a file, 0 without the option. Where a file names a

@@ -189,7 +189,8 @@ loadPoints(const std::string& path,
            pcl_uvol::Report& report,
            const pcl_uvol::LoadOptions& options,
            const std::string& where,
-           unsigned threads)
+           unsigned threads,
+           std::size_t* in_file)
 {
   const pcl_uvol::StepTimer timer(report, "read");
   const pcl_uvol::LoadOptions on_map = onMapOfCommand(options);
@@ -197,6 +198,8 @@ loadPoints(const std::string& path,
   report.warnings.insert(
       report.warnings.end(), dataset.notes.begin(), dataset.notes.end());
   keepMap(path, dataset, on_map, report);
+  if (in_file)
+    *in_file = dataset.cloud.width;
   if (!where.empty())
     report.count("removed_by_where",
                  pcl_uvol::selectRows(dataset, where, {threads, ""}, report));

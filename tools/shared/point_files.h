@@ -75,13 +75,15 @@ loadMesh(const std::string& path,
  * become warnings.
  * \param where keep only the points for which that holds, see selectRows; "": all
  * \param threads for that; 0: all cores
+ * \param[out] in_file how many points the file has, if that is asked for
  * \throws IOError, and InvalidArgument for a file without points */
 pcl_uvol::Dataset
 loadPoints(const std::string& path,
            pcl_uvol::Report& report,
            const pcl_uvol::LoadOptions& options = {},
            const std::string& where = "",
-           unsigned threads = 0);
+           unsigned threads = 0,
+           std::size_t* in_file = nullptr);
 
 /** \brief Names of fields joined by commas, as parseNames() reads them. Where a field
  * has several parts with the commas between them as its name, they are that one name.

@@ -40,10 +40,7 @@ PointJob::read(const MemoryGuard::Bytes& bytes)
   memory_.checkFile(input_, where.empty() ? bytes : nullptr, load);
   facts = {{"input", input_}, {"output", output_}};
   total_.emplace(report, "total");
-  pcl_uvol::Dataset points =
-      loadPoints(input_, report, load, where, options_.threads());
-  points_ = points.cloud.width + report.getCount("removed_by_where");
-  return points;
+  return loadPoints(input_, report, load, where, options_.threads(), &points_);
 }
 
 void

@@ -1,42 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "uvol_isosurface/input_samples.h"
 
-#include "common/records.h"
-#include "common/scalar_field.h"
-#include "interpolation/outer_layer.h"
 #include "isosurface/memory_need.h"
 #include "pipeline/memory_need.h"
 #include "shared/point_files.h"
 #include <pcl_uvol/io/dataset.h>
 
-#include <cmath>
-#include <string>
+#include <algorithm>
 
 namespace uvol_tools {
 
 using pcl_uvol::Report;
-
-namespace {
-
-void
-addOuterLayer(const Options& options,
-              const PipelineOptions& arguments,
-              pcl_uvol::Dataset& samples,
-              Report& report)
-{
-  if (arguments.parameters.isosurface.interpolation != pcl_uvol::Interpolation::Linear)
-    report.warn("fits_swing");
-  const std::string& field = arguments.parameters.isosurface.field;
-  pcl_uvol::addOuterLayer(samples,
-                          field.empty() ? pcl_uvol::ScalarField::defaultName(
-                                              pcl_uvol::listNumberFields(samples))
-                                        : field,
-                          arguments.outside_value,
-                          options.threads(),
-                          report);
-}
-
-} // namespace
 
 MemoryGuard::Bytes
 forecastMemory(const PipelineOptions& arguments)
@@ -69,13 +43,15 @@ loadSamples(const Options& options,
             MemoryGuard& memory,
             Report& report)
 {
+  std::size_t points = 0;
   auto samples =
       std::make_shared<pcl_uvol::Dataset>(loadPoints(arguments.input,
                                                      report,
                                                      arguments.makeLoadOptions(),
                                                      arguments.getWhere(),
-                                                     options.threads()));
-  report.count("points", samples->cloud.width + report.getCount("removed_by_where"));
+                                                     options.threads(),
+                                                     &points));
+  report.count("points", points);
   arguments.resolveSpacing(*samples);
   const auto sides = arguments.periodic.findSides(*samples, report);
   arguments.parameters.periodic = Eigen::Array3d(sides.data());
@@ -83,8 +59,6 @@ loadSamples(const Options& options,
   if (arguments.density.isAskedFor() && arguments.parameters.isosurface.field.empty())
     arguments.parameters.isosurface.field = "sph_density";
   addField(*samples, arguments.parameters.isosurface.field, options, report, sides);
-  if (std::isfinite(arguments.outside_value))
-    addOuterLayer(options, arguments, *samples, report);
   arguments.picture.addColorOfSamples(options, *samples, report, sides);
   checkOutput(arguments, *samples);
   memory.checkCloud(*samples, forecastMemory(arguments));

@@ -7,7 +7,6 @@
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/neighbors/voronoi_diagram.h>
 
-#include <cmath>
 #include <filesystem>
 
 namespace uvol_tools {
@@ -112,7 +111,7 @@ PipelineOptions::declare(Options& options)
   periodic.declare(options);
   options
       .number("outside-value",
-              outside_value,
+              outside_value_,
               std::numeric_limits<double>::lowest(),
               std::numeric_limits<double>::max(),
               "add samples of that value one spacing outside of the data, where the "
@@ -128,10 +127,9 @@ PipelineOptions::declare(Options& options)
 bool
 PipelineOptions::needsAllSamples() const
 {
-  return hasFieldsOfNeighbors() || periodic.isAskedFor() ||
-         std::isfinite(outside_value) || parameters.smooth ||
-         parameters.automatic_scale || getScale().isFromSpacing() ||
-         isTurned(parameters) || !getWhere().empty() ||
+  return hasFieldsOfNeighbors() || periodic.isAskedFor() || parameters.outside_value ||
+         parameters.smooth || parameters.automatic_scale ||
+         getScale().isFromSpacing() || isTurned(parameters) || !getWhere().empty() ||
          parameters.validation.folds > 0 || parameters.mesh || parameters.fill_gaps ||
          mesh_.isMeasured() ||
          parameters.isosurface.neighbors != NeighborSource::KdTree;
@@ -148,11 +146,6 @@ PipelineOptions::hasFieldsOfNeighbors() const
 void
 PipelineOptions::checkCombinations(const Options& options) const
 {
-  using pcl_uvol::NormalMethod;
-  const bool fits =
-      parameters.isosurface.interpolation != pcl_uvol::Interpolation::Linear;
-  if (parameters.normals == NormalMethod::Fit && !fits)
-    throw UsageError("-normals fit needs -interpolation fit.");
   if (options.given("grid") &&
       parameters.isosurface.neighbors != NeighborSource::Voronoi)
     throw UsageError("-grid needs -neighbors voronoi.");
@@ -172,27 +165,12 @@ PipelineOptions::checkCombinations(const Options& options) const
         "-where, -scale auto or spacing, -rotate, -validate, -fill-gaps, -mesh, "
         "-measure, -neighbors voronoi or exact or derivatives as fields. They need "
         "all samples.");
-  if (periodic.isAskedFor() && (std::isfinite(outside_value) ||
-                                options.given("validate") || parameters.fill_gaps))
-    throw UsageError(
-        "-periodic cannot be combined with -outside-value, -validate or -fill-gaps: "
-        "there is no outside, images would reveal held-out samples, and kriged "
-        "samples have no images.");
-  if (std::isfinite(outside_value) && parameters.fill_gaps)
-    throw UsageError(
-        "-fill-gaps cannot be combined with -outside-value: kriging would predict the "
-        "step to it.");
-  if (!parameters.mesh)
-    return;
-  if (!fits || parameters.isosurface.neighbors != NeighborSource::KdTree ||
-      parameters.normals == NormalMethod::Pca)
-    throw UsageError(
-        "-mesh cannot be combined with -interpolation linear, -neighbors voronoi or "
-        "exact, or -normals pca: it needs fits and cells of the kd-tree.");
-  if (options.given("max-error") || parameters.drop_bridged)
-    throw UsageError(
-        "-mesh cannot be combined with -max-error or -drop-bridged: it keeps "
-        "all of its vertices.");
+  try {
+    checkParameters(parameters);
+  }
+  catch (const pcl_uvol::InvalidArgument& error) {
+    throw UsageError(error.asMessage().text(pcl_uvol::ParameterNames::Options));
+  }
 }
 
 void
@@ -214,13 +192,11 @@ PipelineOptions::finish(const Options& options)
                                                         : pcl_uvol::ValidateBy::Field;
   if (parameters.validation.by == pcl_uvol::ValidateBy::Field)
     parameters.validation.field = validate_by_;
+  if (options.given("outside-value"))
+    parameters.outside_value = outside_value_;
   parameters.mesh = mesh_.finish(options, output);
   parameters.periodic_mesh = mesh_.getPeriodicMesh();
-  // Fits swing where the field steps to the value outside.
-  if (std::isfinite(outside_value) && !options.given("interpolation") &&
-      !parameters.mesh)
-    parameters.isosurface.interpolation = pcl_uvol::Interpolation::Linear;
-  periodic.check(isTurned(parameters));
+  parameters.periodic = Eigen::Array3d(periodic.check(isTurned(parameters)).data());
   checkCombinations(options);
   if (!parameters.mesh)
     pcl_uvol::checkSavePath(output);

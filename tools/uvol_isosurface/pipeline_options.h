@@ -22,7 +22,6 @@ struct PipelineOptions : IsosurfaceOptions {
   SurfacePicture picture;
   DensityOptions density;
   PeriodicOption periodic;
-  double outside_value = std::numeric_limits<double>::quiet_NaN(); ///< unset
 
   void
   declare(Options& options);
@@ -57,6 +56,7 @@ private:
   checkCombinations(const Options& options) const;
 
   MeshOptions mesh_;
+  double outside_value_ = 0.0;
   std::string max_error_, max_memory_, scratch_, validate_by_ = "random";
   std::uint64_t grid_ = 0, k_ = parameters.normal_neighbors;
 };

@@ -156,7 +156,7 @@ describeSurface(const pcl_uvol::IsosurfaceResult& result,
       {"isopoints per isovalue", toNumbers(result.isopoints)},
   };
   append(facts, describe({result.scale, parameters.rotation}, result.scale_choice));
-  facts.emplace_back("interpolation", toWord(parameters.isosurface.interpolation));
+  facts.emplace_back("interpolation", toWord(result.interpolation));
   facts.push_back(describeErrors(result.errors));
   if (result.sampling)
     facts.push_back(describeSampling(*result.sampling));

@@ -128,6 +128,11 @@ struct PCL_UVOL_EXPORTS IsosurfacePipelineParameters {
    * extract from both, see GapFilling: best with an automatic scale, since what is
    * predicted lives on distances. The field is one of single numbers. */
   bool fill_gaps = false;
+  /** Where the field is known to end outside of the data, as the density of a liquid
+   * does: its value there, in units of the field. Samples of that value are added about
+   * one spacing outside of the others, see addOuterLayer. Interpolation::Auto is then
+   * Linear, but in a mesh, since fits oscillate at the jump. None: nothing is known. */
+  std::optional<double> outside_value;
   ValidationParameters validation;
   /** Make a mesh, see SurfaceMesh, whose vertices are the isopoints. None: isopoints
    * that nothing joins. */
@@ -159,6 +164,7 @@ struct PCL_UVOL_EXPORTS IsosurfacePipelineParameters {
                            Member{"automatic_max_error", &Own::automatic_max_error},
                            Member{"drop_bridged", &Own::drop_bridged},
                            Member{"fill_gaps", &Own::fill_gaps},
+                           Member{"outside_value", &Own::outside_value},
                            Member{"validation", &Own::validation},
                            Member{"mesh", &Own::mesh},
                            Member{"periodic", &Own::periodic},
@@ -179,10 +185,12 @@ struct PCL_UVOL_EXPORTS IsosurfacePipelineParameters {
 /** \throws InvalidArgument for what can be told without samples: see
  * checkParameters(IsosurfaceParameters); normals by fits with linear interpolation;
  * fewer than 2 neighbours of a normal; a bound of the error that is negative or no
- * number, or given beside an automatic one; a hold-out test of one fold, or in a box
- * that repeats; sides of such a box that are negative or not finite; welding without
- * such a box or a mesh; a mesh with a bound of the error, without bridged points, with
- * other normals than those of the fits, and as checkParameters(SurfaceMeshParameters)
+ * number, or given beside an automatic one; a value outside that is not finite, or with
+ * filled gaps; a hold-out test of one fold; a hold-out test, filled gaps or a value
+ * outside in a box that repeats; sides of such a box that are negative or not finite;
+ * welding without such a box or a mesh; a mesh with a bound of the error, without
+ * bridged points, with other normals than those of the fits, and as
+ * checkParameters(SurfaceMeshParameters)
  *
  * \param parameters to be checked before samples are there */
 PCL_UVOL_EXPORTS void

@@ -115,13 +115,15 @@ struct PCL_UVOL_EXPORTS IsosurfaceResult {
    * box. */
   Dataset surface;
   std::vector<Triangle> triangles; ///< with a mesh: counter-clockwise seen from outside
-  std::vector<SurfacePiece> pieces; ///< with a mesh: see SurfaceTriangles
-  double smallest_angle = 0.0;      ///< with a mesh: of all triangles, in degrees
-  IsoEdges edges;                   ///< one per isopoint, indices into the samples;
-                                    ///< those beyond the last one are predicted samples
+  std::vector<SurfacePiece> pieces;   ///< with a mesh: see SurfaceTriangles
+  double smallest_angle = 0.0;        ///< with a mesh: of all triangles, in degrees
+  IsoEdges edges;                     ///< one per isopoint, indices into the samples;
+                                      ///< those beyond the last one are predicted or of
+                                      ///< IsosurfacePipelineParameters::outside_value
   std::vector<std::size_t> isopoints; ///< how many of each isovalue the surface has
   std::string field;                  ///< that was taken
   Eigen::Array3f scale;               ///< that was taken
+  Interpolation interpolation = Interpolation::Auto; ///< that was taken
   /** With an automatic scale: how it was found. */
   std::optional<ScaleChoice> scale_choice;
   /** With `smooth`: one per isovalue; spacing 0 where there was no surface to smooth.

@@ -177,6 +177,7 @@ withOuterLayer(const DatasetPtr& dataset,
   runInterruptibly(progress, [&](const ProgressCallback& callback) {
     report.progress = callback;
     addOuterLayer(*result,
+                  nullptr,
                   field.empty() ? ScalarField::defaultName(listNumberFields(*dataset))
                                 : field,
                   value,
