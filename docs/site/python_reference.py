@@ -8,12 +8,12 @@ import sys
 import textwrap
 
 sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "python/pcl_uvol"))
-from _described import fill  # noqa: E402
+from _described import Docstrings, ending, fill  # noqa: E402
 
 INTRODUCTION = """# The Python module
 
-Every public name of `pcl_uvol` with its signature and its docstring, as `help(pcl_uvol)` shows them. `...` stands for a
-default that the docstring tells. [Python](../guide/python.md) explains how the names play together.
+Every public name of `pcl_uvol` with its signature and its docstring, as `help(pcl_uvol)` shows them. `...` is a default,
+which the docstring lists. [Python](../guide/python.md) explains how the names play together.
 """
 
 SHOWN = ("__init__", "__call__", "__getitem__")  # of the names with underscores
@@ -33,30 +33,49 @@ def read_members(folder, node):
     stub = next(item for item in ast.parse((folder / "__init__.pyi").read_text()).body
                 if getattr(item, "name", "") == node.name)
     types = {argument.arg: ast.unparse(argument.annotation) for argument in stub.args.kwonlyargs}
-    texts = re.findall(r'Member\{\s*"(\w+)",\s*&Own::\w+,\s*\{((?:\s*"[^"]*")+)', header)
-    return [{"name": name, "type": types[name], "help": "".join(re.findall(r'"([^"]*)"', text))}
-            for name, text in texts if name in types]
+    texts = re.findall(r'Member\{\s*"(\w+)",\s*&Own::(\w+),\s*\{((?:\s*"[^"]*")+)', header)
+    return [{"name": name, "type": types[name].removesuffix(" | None"), "default": read_default(header, member),
+             "help": "".join(re.findall(r'"([^"]*)"', text))} for name, member, text in texts if name in types]
 
 
-def read_docstring(folder, node):
-    return fill(ast.get_docstring(node), read_members(folder, node))
+def read_default(header, member):
+    """The default of a member of the struct of parameters, which is a number or a word; None without one."""
+    value = re.search(rf"\s{member} = (?:\w+::)?(\w[\w.]*);", header.rpartition("Parameters {")[2])
+    return value and (value[1].lower() if value[1].isalpha() else ast.literal_eval(value[1]))
+
+
+def list_endings(node):
+    """How the entries of the parameters of a function end, by the defaults of its signature."""
+    places, names = node.args.args, node.args.kwonlyargs
+    defaults = [None] * (len(places) - len(node.args.defaults)) + node.args.defaults + node.args.kw_defaults
+    return {argument.arg: ending(ast.literal_eval(default)) if isinstance(default, (ast.Constant, ast.Tuple)) else ""
+            for argument, default in zip(places + names, defaults)}
 
 
 def read_docstrings(folder):
     """Docstrings by name, those of methods by Class.name, inherited ones as well."""
-    found, classes = {}, {}
-    for path in sorted(folder.glob("*.py")):
-        for node in ast.parse(path.read_text()).body:
-            if isinstance(node, ast.FunctionDef):
-                found[node.name] = read_docstring(folder, node)
-            if isinstance(node, ast.ClassDef):
-                found[node.name] = ast.get_docstring(node)
-                classes[node.name] = node
-    for name, node in classes.items():
-        bases = [classes[base.id] for base in node.bases if getattr(base, "id", None) in classes]
-        for item in [item for owner in (*reversed(bases), node) for item in owner.body]:
-            if isinstance(item, ast.FunctionDef):
-                found[f"{name}.{item.name}"] = ast.get_docstring(item)
+    nodes = [node for path in sorted(folder.glob("*.py")) for node in ast.parse(path.read_text()).body]
+    pages, bases = {}, {}
+    for node in nodes:
+        text = (ast.get_docstring(node) or "") if isinstance(node, (ast.ClassDef, ast.FunctionDef)) else ""
+        if isinstance(node, ast.FunctionDef):
+            members = read_members(folder, node)
+            pages[node.name] = (fill(text, members),
+                                {**list_endings(node), **{each["name"]: ending(each["default"]) for each in members}})
+        elif isinstance(node, ast.ClassDef):
+            bases[node.name] = [base.id for base in node.bases if hasattr(base, "id")]
+            fields = [item for item in node.body if isinstance(item, ast.AnnAssign) and item.value]
+            pages[node.name] = text, {item.target.id: ending(ast.literal_eval(item.value)) for item in fields}
+            for item in [item for item in node.body if isinstance(item, ast.FunctionDef)]:
+                pages[f"{node.name}.{item.name}"] = ast.get_docstring(item) or "", list_endings(item)
+                if item.name == "__init__":
+                    pages[node.name][1].update(list_endings(item))
+    pages["isosurface"][1].update(pages["Extractor.extract"][1])  # which takes its options
+    whole = Docstrings({name: page for name, page in pages.items() if "Parameters\n" in page[0]})
+    found = {name: whole.write(name) if "Parameters\n" in page[0] else page[0] for name, page in pages.items()}
+    for owner, names in bases.items():
+        for name in [name for base in names for name in list(found) if name.startswith(f"{base}.")]:
+            found.setdefault(owner + name[name.index("."):], found[name])
     return found
 
 

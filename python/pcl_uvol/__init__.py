@@ -5,6 +5,7 @@ Samples of fields at scattered points go in as arrays or files; isosurfaces with
 and all fields, meshes, level sets, interpolated values and pictures come out.
 """
 
+from . import _described
 from ._arrays import empty
 from ._bridges import from_vtk
 from ._core import __version__
@@ -62,3 +63,5 @@ __all__ = [
     "voronoi",
     "write",
 ]
+
+_described.complete(globals()[name] for name in __all__)

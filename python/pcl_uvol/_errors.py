@@ -31,7 +31,7 @@ class DivergedError(ArithmeticError):
     Attributes
     ----------
     code : str or None
-        As that of `FieldError`.
+        What went wrong, as one word; None where it is told in words only.
 
     Examples
     --------

@@ -21,7 +21,7 @@ def read(path, xyz=("", "", ""), particles="", cells=False, progress=None, map=N
         nc, nc4, cdf; of HDF5 h5, hdf5, hdf, he5, h5part (`file.h5:/group` names a part of it);
         of Exodus ex2, exo, exii, e; case of EnSight, foam of OpenFOAM, p3d of PLOT3D, bgeo and
         bhclassic of Houdini. .gz, .bz2 or .zst may follow. Snapshots of Gadget may have any
-        name. "-" is standard input.
+        name. "-" is standard input. Files of VTK report no progress.
     xyz : sequence of three str, optional
         Columns of a text file that hold the coordinates, by names or numbers from 0; by
         default they are found by usual names.
@@ -31,8 +31,7 @@ def read(path, xyz=("", "", ""), particles="", cells=False, progress=None, map=N
     cells : bool
         Of files of VTK, Exodus, EnSight and OpenFOAM: take the centres of cells with
         their data instead of points.
-    progress : bool or callable, optional
-        See `isosurface`; files of VTK tell none.
+    {progress}
     map : "auto", tuple or Map, optional
         Origin (longitude, latitude) of the map that longitude and latitude are put on, with
         "m" or "km" behind them; "auto": their median. By default files of NetCDF choose it,
@@ -99,15 +98,13 @@ def write(path, points, fields=None, triangles=None, ascii=False, progress=None)
     ----------
     path : str or os.PathLike
         Of points pcd, ply, vtp, vtkhdf, csv or npz, by the ending.
-    points, fields
-        As those of `Samples`, or something that has `save`.
-    triangles : array_like of int, shape (m, 3), optional
-        Of these points: the file is that of a mesh, ply, vtp, vtkhdf, obj, off or
-        stl.
-    ascii : bool
-        PCD and PLY as text.
-    progress : bool or callable, optional
-        See `isosurface`; told where points are written as text.
+    points : array_like, shape (n, 3), Samples, Surface or Mesh
+        Coordinates, float32 or float64; or an object that has `save`.
+    {fields}
+    triangles : array_like of int, shape (m, 3)
+        Triangles of the points. The file is a mesh: ply, vtp, vtkhdf, obj, off or stl.
+    {ascii of Points.save}
+    {progress}
 
     Examples
     --------
@@ -135,7 +132,8 @@ def read_mesh(path, map=None):
     path : str or os.PathLike
         ply, vtp, vtkhdf, obj, off or stl, by the ending.
     map : "auto", tuple or Map, optional
-        As that of `read`, for vertices with fields of longitude and latitude.
+        Origin of a map for vertices with fields of longitude and latitude: (longitude, latitude),
+        with "m" or "km" behind them. "auto": their median. `map=samples.map` uses one map for both.
 
     Returns
     -------

@@ -14,24 +14,24 @@ from ._samples import Samples, as_samples
 
 
 class Answers:
-    """Fields at queries, as an `Interpolator` tells them.
+    """Values of fields at queries, from an `Interpolator`.
 
     Attributes
     ----------
     values : numpy.ndarray
-        In units of the field, NaN where there is none; of one field in the shape of the
-        queries, of several with the field as the first axis.
+        In units of the field; NaN: no value. One field: the shape of the queries; several: the
+        field is the first axis.
     errors : numpy.ndarray or None
-        Standard errors of the values; None if they were not asked for.
+        Standard errors of the values, in units of the field; None without `errors=True`.
     gradients : numpy.ndarray or None
-        Per unit of length, with an axis of three at the end.
+        Per unit of length, with an axis of three at the end; None without `gradients=True`.
     support : numpy.ndarray of uint8
-        What a value rests on: 1 samples all around, 2 a gap of the sampling, 3 its rim,
-        5 samples that do not determine the model, 6 no place, 7 outside of the data.
+        Data coverage: 1 samples all around, 2 in a gap of the sampling, 3 at the rim of a gap or of
+        the data, 5 samples that do not determine the model, 6 position not finite, 7 outside.
     report : dict
         Counts, milliseconds and warnings.
     parameters : dict
-        Those of the interpolator.
+        All parameters of the interpolator.
 
     Examples
     --------
@@ -62,35 +62,31 @@ class Answers:
 
 
 class Interpolator:
-    """Interpolates fields given at scattered points, at any other places.
+    """Interpolates fields of scattered samples at any position.
 
     Parameters
     ----------
-    points, fields
-        As those of `Samples`, or samples.
+    {points, fields}
     field : str or sequence of str
-        What to interpolate: fields or expressions; by default `intensity`, else the only
-        candidate. A sequence gives arrays with an axis of fields in front.
+        Fields or expressions. "": `intensity`, otherwise the only candidate. A sequence gives arrays
+        with an axis of fields in front; `scale="auto"` is estimated from its first field.
     model : {"fit", "natural", "laplace", "kriging", "sph", "shepard", "nearest", "auto"}
-        "auto": the one that is nearest to samples left out.
+        "auto" selects the model with the smallest error at held-out samples.
     extrapolate : bool
-        Give values outside of the data as well; else NaN there.
+        Extrapolate outside of the data. By default, values there are NaN.
     cell_mask : bool
-        Of samples that `read` took from a file with cells of three dimensions, let the
-        cells say where the data are: inside of one there is a value, outside of all NaN.
+        For samples that `read` took from a file with cells of three dimensions: give values inside
+        of the cells, and NaN outside of all.
     gradients, errors : bool
-        Compute these beside the values.
-    scale, rotate
-        As those of `isosurface`; of several fields "auto" goes by the first one.
-    kriging, sph, shepard : dict, optional
-        Parameters of these models, by the library's names: `kriging={"variogram":
-        "gaussian", "nugget": 0.1}`; "sill" is the partial sill, without the nugget.
-    periodic : sequence of 3 floats, or "header", optional
-        As that of `isosurface`: places may lie in any of the boxes.
-    threads : int
-        0: all cores.
-    progress : bool or callable, optional
-        See `isosurface`.
+        Compute the gradients and the standard errors, too.
+    {scale, rotate}
+    kriging, sph, shepard : dict
+        Parameters of these models, by the library's names: `kriging={"variogram": "gaussian",
+        "nugget": 0.1}`. "sill" is the partial sill, without the nugget.
+    periodic : sequence of three float, or "header"
+        Sides of the periodic box, in units of length; 0 along an axis that is not periodic.
+        "header": the sides that the file names (`Samples.box`). Queries can be in any of the boxes.
+    {threads, progress}
 
     Attributes
     ----------
@@ -192,11 +188,10 @@ class Interpolator:
         Parameters
         ----------
         queries : array_like, shape (..., 3), Samples or Surface
-            Places in the coordinates of the samples.
-        threads : int, optional
-            By default those of the interpolator.
-        progress : bool or callable, optional
-            See `isosurface`.
+            Positions in the coordinates of the samples.
+        threads : int
+            Number of threads; 0 uses all cores. By default, that of the interpolator.
+        {progress}
 
         Returns
         -------
@@ -221,17 +216,18 @@ class Interpolator:
 
     @_parameters.with_proposals
     def __call__(self, queries, threads=None, progress=None):
-        """Values and standard errors at queries: those of `evaluate`.
+        """Values and standard errors at queries; `evaluate` also gives gradients and `support`.
 
         Parameters
         ----------
-        queries, threads, progress
-            As those of `evaluate`.
+        {others of Interpolator.evaluate}
 
         Returns
         -------
         values : numpy.ndarray
+            In units of the field; NaN: no value.
         errors : numpy.ndarray or None
+            Standard errors of the values; None without `errors=True`.
 
         Examples
         --------
@@ -245,19 +241,19 @@ class Interpolator:
 
     @_parameters.with_proposals
     def probe(self, points, threads=None, progress=None):
-        """Points with the interpolated fields behind their own, as uvol_probe has them.
+        """Points with the interpolated fields after their own, as uvol_probe writes them.
 
         Parameters
         ----------
         points : Samples, Surface or array_like, shape (n, 3)
-        threads, progress
-            As those of `evaluate`.
+        {others of Interpolator.evaluate}
 
         Returns
         -------
         Samples
-            With their own fields, and for each field of the model `rho`, `rho_error`,
-            `rho_gradient` and `support`; `rho_2` where they have a `rho`.
+            With their own fields, and for a field `rho` of the model: `rho` (`rho_2` if they have
+            a `rho`), `rho_error` (its standard error), `rho_gradient`, and `support` (data coverage,
+            see `Answers`).
 
         Examples
         --------
@@ -273,24 +269,23 @@ class Interpolator:
 
     @_parameters.with_proposals
     def validate(self, folds=10, by="random", threads=None, progress=None):
-        """Leave samples out, one part after the other, and tell how far values from the
-        others are off.
+        """Cross-validation: hold out each part of the samples, and compare its values with those from
+        the other parts.
 
         Parameters
         ----------
         folds : int
-            Parts, at least 2.
+            Number of parts, at least 2.
         by : str
-            Parts are "random", or compact "blocks", or share a value of the field of
-            that name, as drill holes do.
-        threads, progress
-            As those of `evaluate`.
+            Parts are "random", compact "blocks", or the samples that share a value of the field of this
+            name, such as drill holes.
+        {others of Interpolator.evaluate}
 
         Returns
         -------
         dict
-            By field: tested and covered samples, rms and bias in units of the field, and
-            the part that is within_error, no farther off than their error.
+            By field: `tested` and `covered` samples, `rms` and `bias` in units of the field, and
+            `within_error`, the proportion of samples whose deviation is at most their error.
 
         Examples
         --------
@@ -307,16 +302,15 @@ class Interpolator:
 
     @_parameters.with_proposals
     def line(self, start, end, n=500, threads=None, progress=None):
-        """The fields at places from one point to another.
+        """The fields at equal distances along a line.
 
         Parameters
         ----------
         start, end : array_like, shape (3,)
-            In the coordinates of the samples.
+            Positions in the coordinates of the samples.
         n : int
-            Places, both ends among them.
-        threads, progress
-            As those of `evaluate`.
+            Number of positions, with both ends.
+        {others of Interpolator.evaluate}
 
         Returns
         -------
@@ -340,18 +334,17 @@ class Interpolator:
         Parameters
         ----------
         plane : str, or a pair of array_like
-            "z=0.5", or a point and a normal.
+            Such as "z=0.5", or a point and a normal.
         size : int or pair of int
-            Places along the longer side, or a bound for each.
-        box : pair of array_like, optional
-            Low and high corner; by default that of the samples.
-        threads, progress
-            As those of `evaluate`.
+            Number of positions along the longer side, or the largest number along each side.
+        box : pair of array_like
+            Low and high corner; by default the bounding box of the samples.
+        {others of Interpolator.evaluate}
 
         Returns
         -------
         Lattice
-            Of shape (n, m), upwards and across.
+            Of shape (n, m): rows go upwards, columns across.
 
         Examples
         --------
@@ -378,11 +371,9 @@ class Interpolator:
         Parameters
         ----------
         n : int or three int
-            Cubes, so many places along the longest side; or as many along x, y and z.
-        box : pair of array_like, optional
-            Low and high corner; by default that of the samples.
-        threads, progress
-            As those of `evaluate`.
+            Number of positions along the longest side of a grid of cubes; or along x, y and z.
+        {box of Interpolator.slice}
+        {others of Interpolator.evaluate}
 
         Returns
         -------

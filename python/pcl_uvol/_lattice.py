@@ -25,7 +25,7 @@ class Lattice:
     report : dict
         Counts, milliseconds and warnings.
     parameters : dict
-        Those of the interpolator.
+        All parameters of the interpolator.
 
     Examples
     --------
@@ -104,8 +104,8 @@ class Lattice:
         Returns
         -------
         xarray.Dataset
-            Dimensions are x, y and z along the axes, else i, j and k with the places
-            beside them; gradients have a dimension "axis" behind.
+            The dimensions are x, y and z along the axes, otherwise i, j and k with positions as coordinates.
+            The last dimension of gradients is "axis".
 
         Examples
         --------
@@ -133,9 +133,8 @@ class Lattice:
 
     @_parameters.with_proposals
     def save(self, path):
-        """Write a file as uvol_probe does: vti, vts, nrrd or mha, by the ending of its
-        name. Of the last two, which hold one array, others are in further files beside
-        it.
+        """Write a file as uvol_probe does: vti, vts, nrrd or mha, by the ending of its name. The last two have
+        one array per file: others are in further files next to it.
 
         Parameters
         ----------
@@ -163,21 +162,19 @@ class Lattice:
     @_parameters.with_proposals
     def render(self, field="", *, contours=(), colormap="viridis", range=None, log=False, samples=None, label="",
                unit=""):
-        """A picture of a slice, or of the values along a line with their errors, as
-        uvol_probe draws it.
+        """A picture of a slice, or of the values along a line with their errors, as uvol_probe draws it.
 
         Parameters
         ----------
         field : str
-            By default the first one.
+            Name of a field; "": the first one.
         contours : sequence of float
-            Values that lines are drawn of, in a slice.
-        colormap, range, log
-            As those of `Surface.render`, of a slice.
-        samples : float, optional
-            Draw the samples that are so near to a slice as well, in their colours.
+            In a slice: draw lines of these values.
+        {colormap, range, log of Drawable.render}
+        samples : float
+            In a slice: draw the samples that are at most this far from it, in their colours.
         label, unit : str
-            What the values are called, by default the field, and the unit of coordinates.
+            Title of the values, "": the field; unit of the coordinates.
 
         Returns
         -------

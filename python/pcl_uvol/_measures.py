@@ -159,28 +159,26 @@ def _parts(surface, what):
 @_parameters.with_proposals
 def measure(surface, *, samples=None, curved=True, find_intersections=False, drop_unsure=False, threads=0,
             progress=None):
-    """Area, volume, axes, genus and integrals of fields of a surface, each with its
-    error.
+    """Area, volume, axes, genus and integrals of fields of a surface, each with its error.
 
     Parameters
     ----------
     surface : Mesh, points with normals, or a pair of vertices and triangles
-        Such as `read_mesh` gives. Of points genus and what is inside are not known.
-    samples : Samples, optional
-        To look for inside; those of a `Mesh` are known.
+        For example the result of `read_mesh`. Points have no genus and no integrals inside.
+    samples : Samples
+        Samples to find inside of the mesh. A `Mesh` knows its samples.
     curved : bool
-        Bend triangles as the normals of their vertices tell.
+        Curve the triangles according to the normals of their vertices.
     find_intersections : bool
-        Look for triangles that go through one another.
+        Find triangles that intersect.
     drop_unsure : bool
-        Leave out pieces whose error is as large as they are, as around debris.
-    threads, progress
-        As those of `isosurface`.
+        Remove pieces whose error is as large as the piece, such as debris.
+    {threads, progress}
 
     Returns
     -------
     Measures
-        Those of the first isovalue, with all others in `isovalues`.
+        The measures of the first isovalue. Its `isovalues` has all.
 
     Examples
     --------
@@ -263,14 +261,14 @@ class Distances:
 
 
 class Comparison:
-    """How far two surfaces are apart.
+    """Distances between two surfaces.
 
     Attributes
     ----------
     forth, back : Distances
         From the first surface to the second one, and back.
     largest : float
-        Of both ways: the distance of Hausdorff.
+        Largest distance of both ways: the Hausdorff distance.
     surface : Samples
         The vertices of the first surface with the field `distance` to the second one.
 
@@ -294,16 +292,14 @@ class Comparison:
 
 @_parameters.with_proposals
 def compare(a, b, *, threads=0, progress=None):
-    """Measure how far two surfaces are apart both ways, and how much the fields differ
-    that both have.
+    """Measure the distances between two surfaces, both ways, and the differences of their common fields.
 
     Parameters
     ----------
     a, b : Mesh, Surface, Samples, or a pair of vertices and triangles
-        Such as `read_mesh` gives. Distances to a surface without triangles are those to
-        its points, and no smaller than these lie apart.
-    threads, progress
-        As those of `isosurface`.
+        For example the result of `read_mesh`. Distances to a surface without triangles are measured
+        to its points, so they are limited by the point spacing.
+    {threads, progress}
 
     Returns
     -------

@@ -137,67 +137,66 @@ class Drawable:
         Parameters
         ----------
         color : str
-            A field (of one with several numbers their length) or an expression, "rgb",
-            "none", or "auto": rgb if there, else isovalue if there are several.
+            A field (a vector is shown by its length), an expression, "rgb" or "none". "auto": rgb if
+            there is such a field, otherwise isovalue if there are several.
         colormap : {"auto", "viridis", "cividis", "inferno", "magma", "plasma", "turbo", "gray", "coolwarm", "RdBu", "PuOr", "twilight", "OkabeIto", "tab10"}
-            "auto": OkabeIto for up to eight whole numbers, tab10 for ten, else viridis. With "_r" behind the
-            name it runs backwards.
-        range : pair of float, optional
-            Values at the ends of the colours; by default those of the field.
+            "auto" (not for slices): OkabeIto for up to eight integers, tab10 for ten, otherwise viridis.
+            A name with "_r", such as "RdBu_r", reverses the colours.
+        range : pair of float
+            Values at the ends of the colours; by default the range of the field.
         log : bool
             Colour by the logarithm of the values.
         bar : bool
-            Write beside the picture what its colours stand for.
+            Draw the colour bar.
         size : int or pair of int
-            Pixels, width and height.
+            Width and height, pixels.
         view : {"iso", "front", "back", "left", "right", "top", "bottom"}
-        eye, at, up : array_like, optional
-            Place of the camera, instead of a view; place that it looks at; direction
-            that is upwards.
+            Side from which the surface is seen.
+        eye, at, up : array_like, shape (3,)
+            Position of the camera, which replaces `view`; position at the centre of the picture (by
+            default the centre of the surface); direction that is upwards (by default z).
         fov : float
             Vertical field of view, degrees.
         parallel : bool
-            No perspective; with `eye` the picture shows what a field of view of `fov` would
-            show around the place looked at.
+            Parallel projection. With `eye`, its scale is the scale of a perspective at `at`.
         zoom : float
-            Enlarge the middle of the picture.
+            Factor that enlarges the centre of the picture.
         background : {"white", "black", "gradient", "transparent"}, or a colour
-            Colours are red, green and blue from 0 to 1.
-        surface_color : array_like, optional
-            Of points without a colour.
-        exaggerate : array_like, optional
-            Factors along x, y and z that stretch the picture; `eye` and `at` are places
-            in the data.
-        opacity : float or sequence of float, optional
-            Of the isovalues, the lowest first, or one for all: 0 is clear, 1 is opaque.
-        lights : array_like, shape (n, 3), optional
-            Directions that light comes from: x right, y up, z to the viewer.
-        material : dict, optional
-            Factors of the light: ambient, diffuse, specular, and shininess, the exponent
-            of highlights.
+            A colour is red, green and blue, 0 to 1.
+        surface_color : array_like, shape (3,)
+            Colour of points without a colour: red, green and blue, 0 to 1.
+        exaggerate : array_like, shape (3,)
+            Factors that stretch the picture along x, y and z. `eye` and `at` are not stretched.
+        opacity : float or sequence of float
+            Opacity of all isovalues, or of each one, lowest first: 0 transparent, 1 opaque.
+        lights : array_like, shape (n, 3)
+            Directions towards the lights: x right, y up, z to the viewer.
+        material : dict
+            Factors of the light: ambient, diffuse, specular; and shininess, the exponent of highlights.
         supersample : int
-            Samples per pixel in each direction; 0: 2.
+            Samples per pixel in each direction; 0: automatic (`render` 2, `raytrace` 1).
         culling : bool
-            Leave out what looks away from the eye.
+            Omit surfaces that face away from the camera.
         footprints : bool
-            Points become discs where they lie farther apart than pixels.
+            Draw points as discs where their distance is more than a pixel.
         silhouettes, features : bool
-            Draw lines, of `line_color`; silhouettes of that thickness, 1 to 7.
+            Draw silhouettes; draw feature lines.
+        thickness : int
+            Thickness of silhouettes, 1 to 7: t for 2 t - 1 pixels.
+        line_color : array_like, shape (3,)
+            Colour of lines: red, green and blue, 0 to 1; by default black.
         ticks, box, triad, scale_bar : bool
-            Axes with values, and grid lines behind; the box around the surface; the
-            directions of x, y and z; a bar of a round length, as lengths in the middle of
-            the surface look.
+            Draw axes with values and grid lines; the box around the surface; the directions of x, y
+            and z; a bar of a round length, which is true at the centre of the surface.
         unit, title : str
-            Of the coordinates, such as km, for the above; a line above the picture.
+            Unit of the coordinates, such as km, for axes and scale bar; a line above the picture.
         views : sequence of str
-            Several views in one picture, as ("iso", "top"), instead of `view`.
-        passes : dict, optional
-            What few change: fill, occluded, layers, shading, occlusion (0 to 1: what
-            walls around take of the light), smoothing ("none", "box", "gaussian",
-            "alleviated"), smoothings, silhouette_threshold, feature_threshold, antialias,
-            antialias_threshold.
-        threads, progress
-            As those of `isosurface`.
+            Several views in one picture, such as ("iso", "top"); they replace `view`.
+        passes : dict
+            Rarely used: fill, occluded, layers, shading, occlusion (0 to 1: ambient light that walls
+            around block), smoothing ("none", "box", "gaussian", "alleviated"), smoothings,
+            silhouette_threshold, feature_threshold, antialias, antialias_threshold.
+        {threads, progress}
 
         Returns
         -------
@@ -230,22 +229,22 @@ class Drawable:
         Parameters
         ----------
         depth : int
-            Reflections and refractions in a row.
+            Largest number of reflections and refractions of a ray.
         shadows : bool
+            Draw shadows.
         light_samples : int
             Shadow rays to a light that has a radius.
         occlusion : int
-            Rays that find how much ambient light reaches a place; 0: all.
+            Rays that estimate the ambient light at a position; 0: no occlusion.
         occlusion_distance : float
-            What is farther does not count; 0: a fifth of the radius of the scene.
+            Length beyond which nothing blocks ambient light; 0: a fifth of the radius of the scene.
         reflect, transparent : float
-            Parts of the light that are mirrored, and let through.
+            Proportions of the light that are reflected, and transmitted, 0 to 1.
         index : float
             Refractive index of the inside.
-        splats : dict, optional
+        splats : dict
             Parameters of `splats`, by the library's names: delta, delta_is_length, lambda.
-
-        The others are those of `render`.
+        {others of Drawable.render}
 
         Returns
         -------
@@ -267,16 +266,16 @@ class Drawable:
         return self._draw(look, _parameters.to_json(rays), threads, progress)
 
     def orbit(self, frames, *, raytraced=False, **options):
-        """Draw the frames of a full turn about `up`, each when it is asked for.
+        """Draw the frames of a full turn about `up`. Each one is drawn when it is requested.
 
         Parameters
         ----------
         frames : int
-            At least 1.
+            Number of frames, at least 1.
         raytraced : bool
-            By `raytrace`, else by `render`.
+            Draw with `raytrace` instead of `render`.
         **options
-            Theirs.
+            Parameters of `raytrace` or `render`.
 
         Returns
         -------
@@ -313,17 +312,14 @@ class Drawable:
     def save_page(self, path, *, color="auto", colormap="auto", range=None, log=False, bar=True, view="iso", eye=None,
                   at=None, up=None, fov=30.0, parallel=False, zoom=1.0, background="white", surface_color=None, exaggerate=None,
                   lights=None, material=None, threads=0, progress=None):
-        """Write the points as a web page: one file that turns in any browser, with no
-        server and no network, as uvol_render writes it.
+        """Write the points as a web page: one file that any browser shows and turns, without a server
+        or a network, as uvol_render writes it.
 
         Parameters
         ----------
         path : str or os.PathLike
             Ends in .html.
-        color, colormap, range, log, bar, view, eye, at, up, fov, parallel, zoom, background, surface_color, exaggerate, lights, material
-            As those of `render`.
-        threads, progress
-            As those of `isosurface`.
+        {others of Drawable.render}
 
         Returns
         -------
@@ -383,23 +379,21 @@ def _draw_frame(painter, frame, progress):
 def raytrace(scene, *, folder="", size=None, view=None, eye=None, at=None, up=None, fov=None, parallel=False, zoom=1.0, turn=0.0,
              background=None, lights=None, supersample=None, depth=None, shadows=None, light_samples=None,
              occlusion=None, occlusion_distance=None, culling=None, threads=0, progress=None):
-    """Draw a scene of uvol_raytrace: surfaces of several files with their materials,
-    lights and a camera.
+    """Draw a scene of uvol_raytrace: surfaces of several files with their materials, lights and a camera.
+
+    Parameters that are given replace those of the scene: `view` the whole camera; eye, at, up and fov
+    single properties of it.
 
     Parameters
     ----------
     scene : str or os.PathLike
         A text file that lists the items of the scene.
     folder : str or os.PathLike
-        Where its clouds lie; "": beside it.
+        Folder of its clouds; "": the folder of the scene.
     turn : float
-        Degrees that the camera goes around the place that it looks at, counter-clockwise
-        as seen from above: the frames of a full turn have those of `np.arange(0, 360, 10)`.
-    size, view, eye, at, up, fov, parallel, zoom, background, lights, supersample, depth, shadows, light_samples, occlusion, occlusion_distance, culling
-        As those of `Surface.raytrace`, instead of what the scene says; the camera is
-        that of the scene unless `view` is given; eye, at, up and fov change it one by one.
-    threads, progress
-        As those of `isosurface`.
+        Angle by which the camera turns about the position that it faces, degrees, counter-clockwise
+        as seen from above. For a full turn, use `np.arange(0, 360, 10)`.
+    {others of Drawable.raytrace}
 
     Returns
     -------

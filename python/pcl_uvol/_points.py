@@ -192,14 +192,13 @@ class Points(Bridges):
         ----------
         path : str or os.PathLike
         ascii : bool
-            PCD and PLY as text.
-        progress : bool or callable, optional
-            See `isosurface`; told where points are written as text.
+            Write PCD and PLY as text. Only text reports progress.
+        {progress}
 
         Raises
         ------
         OSError
-            Where the file cannot be written; there is none then.
+            If the file cannot be written. No file is left behind then.
 
         Examples
         --------

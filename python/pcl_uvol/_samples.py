@@ -118,19 +118,18 @@ class Samples(Drawable, Points):
 
     @_parameters.with_proposals
     def compute(self, expression, threads=0, progress=None):
-        """Samples that have a field more: that of an expression.
+        """Samples with one more field: the values of an expression.
 
         Parameters
         ----------
         expression : str
-            As in the tools: `log10(rho)`, `|vel|`, `Q(vel)`, `|grad(rho)|`.
-        threads, progress
-            As those of `isosurface`.
+            For example `log10(rho)`, `|vel|`, `Q(vel)`, `|grad(rho)|`.
+        {threads, progress}
 
         Returns
         -------
         Samples
-            These where they have the field already.
+            The same object if it has the field already.
 
         Examples
         --------
@@ -142,21 +141,20 @@ class Samples(Drawable, Points):
 
     @_parameters.with_proposals
     def density(self, length=0.0, threads=0, progress=None):
-        """Samples with the density of particles that have none.
+        """Samples with the SPH density of particles.
 
         Parameters
         ----------
         length : float
-            One smoothing length h for all, in units of the coordinates, whose kernel ends
-            at 2 h; 0: that of the field with a usual name, else by 48 neighbours.
-        threads, progress
-            As those of `isosurface`.
+            One smoothing length h for all particles, in units of the coordinates. The kernel ends at
+            2 h. 0: the field of smoothing lengths with a usual name, otherwise 48 neighbours.
+        {threads, progress}
 
         Returns
         -------
         Samples
-            With the field `sph_density`, of the fields of masses and lengths with usual
-            names; without masses it counts particles per volume.
+            With the field `sph_density`, from the fields of masses and smoothing lengths with usual
+            names. Without a field of masses, it is the number of particles per volume.
 
         Examples
         --------
@@ -175,21 +173,18 @@ class Samples(Drawable, Points):
 
     @_parameters.with_proposals
     def sampling(self, scale=(1.0, 1.0, 1.0), rotate=None, threads=0, progress=None):
-        """Samples with what the sampling is like around each, as `uvol_info -out` writes
-        them.
+        """Samples with the local sampling class and spacings, as `uvol_info -out` writes them.
 
         Parameters
         ----------
-        scale, rotate
-            As those of `isosurface`; "auto" is "spacing".
-        threads, progress
-            As those of `isosurface`.
+        {scale, rotate of info}
+        {threads, progress}
 
         Returns
         -------
         Samples
-            With the fields `local_dimension` (isolated, line, sheet, volume) and
-            `spacing_along` and `spacing_across`, lengths, NaN where nothing lies beside.
+            With the fields `local_dimension` (isolated, line, sheet, volume), `spacing_along` and
+            `spacing_across`: lengths, NaN where there is no neighbour in that direction.
 
         Examples
         --------
@@ -206,22 +201,21 @@ class Samples(Drawable, Points):
 
     @_parameters.with_proposals
     def outer_layer(self, value, field="", threads=0, progress=None):
-        """Samples with further ones around them, about a spacing outside, where a field
-        is known to have a value: a surface is closed there.
+        """Samples with a layer of further samples around them, about one spacing outside, where the
+        field has a known value. It closes surfaces.
 
         Parameters
         ----------
         value : float
-            Of the field; other fields are those of the nearest sample.
+            Value of the field. Other fields get the values of the nearest sample.
         field : str
-            By default `intensity`, else the only candidate.
-        threads, progress
-            As those of `isosurface`.
+            Name of a field. "": `intensity`, otherwise the only candidate.
+        {threads, progress}
 
         Returns
         -------
         Samples
-            With the further ones behind the others.
+            The further samples come last.
 
         Examples
         --------
@@ -239,15 +233,13 @@ class Samples(Drawable, Points):
 
     @_parameters.with_proposals
     def where(self, expression, threads=0, progress=None):
-        """The samples for which an expression holds.
+        """The samples for which an expression is true.
 
         Parameters
         ----------
         expression : str
-            As in the tools: `T > 4 && depth < 100`, `hole = A-2`. Where a value is
-            missing it does not hold.
-        threads, progress
-            As those of `isosurface`.
+            For example `T > 4 && depth < 100` or `hole = A-2`. It is false where a value is missing.
+        {threads, progress}
 
         Returns
         -------

@@ -32,12 +32,12 @@ def level_set(points, fields=None, *, iso, field="", scale=(1.0, 1.0, 1.0), rota
         Isovalue, in units of the field.
     {field}
     {scale, rotate}
-    start : str or dict, optional
-        A field in units of length, or a shape: {"kind": "sphere", "first": centre,
+    start : str or dict
+        Initial level set: a field in units of length, or a shape: {"kind": "sphere", "first": centre,
         "radius": r}, {"kind": "box", "first": low, "second": high}, {"kind": "plane",
-        "first": point, "second": normal}. By default the values themselves.
+        "first": point, "second": normal}. By default, the values of the field.
     snapshots : int
-        Keep the surface every so many steps, as `snapshots` of the result; 0: never.
+        Keep the surface after every so many steps, in `snapshots` of the result; 0: never.
     {periodic}
     {parameters}
     {threads, progress}
@@ -45,14 +45,14 @@ def level_set(points, fields=None, *, iso, field="", scale=(1.0, 1.0, 1.0), rota
     Returns
     -------
     Samples
-        With the field `phi`, about the distance to the surface in units of length,
-        positive where values are higher; `report` tells mu, noise, spacing, and every
-        step; `snapshots` lists steps and samples of the surface after these.
+        With the field `phi`: approximate distance to the surface, in units of length, positive
+        where values are higher. `report` has mu, noise, spacing and every step. `snapshots` is a
+        list of numbers of steps and samples of the surface after them.
 
     Raises
     ------
     DivergedError
-        Where an evolution grows beyond bounds.
+        If the level set grows without bounds.
 
     Examples
     --------
@@ -87,17 +87,16 @@ def level_set(points, fields=None, *, iso, field="", scale=(1.0, 1.0, 1.0), rota
 @described(_core.describe_normals())
 def normals(points, fields=None, *, scale=(1.0, 1.0, 1.0), rotate=None, view_point=(0.0, 0.0, 0.0), threads=0,
             progress=None, **parameters):
-    """Estimate normals of a surface given as points (thesis 4.1).
+    """Estimate normals of a surface given as points (thesis 4.1). Normals that the points have (fields
+    normal_x, normal_y, normal_z) orient the new ones.
 
     Parameters
     ----------
-    points, fields
-        As those of `Samples`, or samples. Normals that they have (fields normal_x,
-        normal_y, normal_z) orient the new ones.
+    {points, fields}
     {parameters}
-    {scale, rotate}
+    {scale, rotate of info}
     view_point : array_like, shape (3,)
-        Where points without a normal of their own are seen from: normals point there.
+        Normals of points without a normal point to this position.
     {threads, progress}
 
     Returns
@@ -123,27 +122,26 @@ def normals(points, fields=None, *, scale=(1.0, 1.0, 1.0), rotate=None, view_poi
 
 
 @_parameters.with_proposals
-@described()
 def splats(points, fields=None, *, delta=1e-4, delta_is_length=False, overlap=0.2, gaussians=False, color="auto",
            threads=0, progress=None):
-    """Cover a surface given as points with discs that have fields of normals (thesis 4.2.1).
+    """Cover a surface, such as a `Surface`, with discs that have fields of normals (thesis 4.2.1). Normals are
+    estimated if the points have no fields normal_x, normal_y, normal_z.
 
     Parameters
     ----------
-    points, fields
-        As those of `Samples`, a surface, or samples; without normals they are estimated.
+    {points, fields}
     delta : float
-        Largest distance of points to their splat, in parts of the longest side of the box
-        of all but a few far ones, or with `delta_is_length` a length.
+        Largest distance between a point and its splat, relative to the longest side of the bounding
+        box, outliers excluded.
     delta_is_length : bool
+        `delta` is a length, in units of the coordinates.
     overlap : float
-        The thesis's lambda: part of a splat's radius in which no other one starts, from 0
-        to 1.
+        Proportion of a splat's radius in which no other one starts, 0 to 1 (lambda in the thesis).
     gaussians : bool
-        Give what viewers of 3D Gaussian splats show, lit, once it is saved as ply.
+        Give 3D Gaussian splats, lit. To show them in viewers, save them as ply.
     color : str
-        Of these: a field, "rgb", "none", or "auto": rgb if there, else isovalue if there
-        are several.
+        With `gaussians`: colour by a field, "rgb" or "none". "auto": rgb if there is such a field,
+        otherwise isovalue if there are several.
     {threads, progress}
 
     Returns
@@ -218,7 +216,7 @@ class Clusters:
         Parameters
         ----------
         cluster : int
-            From 0; -1: noise.
+            Number of the cluster, zero-based; -1: noise.
 
         Returns
         -------
@@ -227,7 +225,7 @@ class Clusters:
         Raises
         ------
         ValueError
-            For a cluster that is not there.
+            If the cluster does not exist.
 
         Examples
         --------
@@ -246,28 +244,26 @@ class Clusters:
         Parameters
         ----------
         cluster : int
-            From 0.
+            Number of the cluster, zero-based.
         kind : {"membership", "distance", "hull", "hull-distance"}
-            Between its samples and the others; at a distance from its points; through
-            its outer points; at a distance from those.
+            The border between its samples and the others; the surface at a distance from its points;
+            their hull; the surface at a distance from this hull.
         probability : str
-            Of membership: a field in [0, 1] instead of 0 and 1.
+            With membership: a field from 0 to 1 that replaces the membership 0 or 1.
         smoothing_length : str
-            Of membership: a field of smoothing lengths, by which SPH's kernel smooths it.
+            With membership: a field of smoothing lengths; the SPH kernel smooths the membership.
         cells : int
-            Of distances: cells along the longest side.
+            With distances: cells of the distance field along the longest side.
         distance : float
-            In units of the coordinates; 0: just beyond the longest edge of the points'
-            minimum spanning tree.
-        scale, rotate
-            As those of `isosurface`; "auto" is "spacing".
-        threads, progress
-            As those of `isosurface`.
+            Distance of the surface, in units of the coordinates; 0: slightly more than the longest
+            edge of the minimum spanning tree of the points.
+        {scale, rotate of info}
+        {threads, progress}
 
         Returns
         -------
         Samples or tuple
-            Points with normals; of the other kinds vertices as samples, and triangles of
+            With membership, points with normals; otherwise vertices as `Samples`, and triangles,
             shape (m, 3).
 
         Examples
@@ -322,7 +318,6 @@ class Clusters:
 
 
 @_parameters.with_proposals
-@described()
 def cluster(points, fields=None, *, attributes=(), labels=None, standardized=True, k=10, min_size=0, cut=0.0, single=False,
             threads=0, progress=None):
     """Find clusters of samples by the density of their attributes (thesis 2.6, HDBSCAN*).
@@ -331,20 +326,20 @@ def cluster(points, fields=None, *, attributes=(), labels=None, standardized=Tru
     ----------
     {points, fields}
     attributes : sequence of str
-        Fields or expressions that span the space; "x", "y" and "z" may be among them.
-    labels : array_like of int, shape (n,), optional
-        Clusters that are known, instead of attributes; negative for noise.
+        Fields or expressions that span the space in which the density is estimated; also "x", "y", "z".
+    labels : array_like of int, shape (n,)
+        Known clusters, instead of `attributes`; negative: noise.
     standardized : bool
-        Take attributes in standard deviations, not in their units.
+        Divide the attributes by their standard deviations; otherwise keep their units.
     k : int
-        Nearest neighbours that tell the density.
+        Nearest neighbours for the estimate of the density.
     min_size : int
-        Fewer points are no cluster; 0: the larger one of 10 and the square root of
-        their number.
+        Smallest number of points of a cluster; 0: 10, or the square root of the number of points
+        if it is larger.
     cut : float
-        Choose the clusters at that distance of attributes; 0: by persistence.
+        Select the clusters at this distance of the attributes; 0: by persistence.
     single : bool
-        All points may be one cluster.
+        Allow a single cluster of all points.
     {threads, progress}
 
     Returns
@@ -432,8 +427,7 @@ class Projection:
 
     @_parameters.with_proposals
     def render(self, view="top", size=(640, 512)):
-        """A picture of the points, by cluster, and of the axes of the attributes, as
-        uvol_project draws it.
+        """A picture of the points by cluster, with the axes of the attributes, as uvol_project draws it.
 
         Parameters
         ----------
@@ -468,19 +462,20 @@ class Projection:
 
 
 @_parameters.with_proposals
-@described()
 def project(points, fields=None, *, attributes, labels=None, standardized=True, method="star", threads=0,
             progress=None):
-    """Project points of many attributes into space, so that their clusters lie apart.
+    """Project points of many attributes into space, so that their clusters are separate.
 
     Parameters
     ----------
-    points, fields, attributes, standardized
-        As those of `cluster`.
-    labels : array_like of int, shape (n,), optional
-        Clusters, negative for noise; by default they are found.
+    {points, fields}
+    attributes : sequence of str
+        Fields or expressions; also "x", "y", "z".
+    labels : array_like of int, shape (n,)
+        Known clusters, negative: noise. By default, `cluster` finds them.
+    {standardized of cluster}
     method : {"star", "pca"}
-        Keep the clusters apart as well as can be; or principal components.
+        Separate the clusters as far as possible; or use the principal components.
     {threads, progress}
 
     Returns
@@ -546,7 +541,6 @@ class VoronoiGrid:
 
 
 @_parameters.with_proposals
-@described()
 def voronoi(points, fields=None, *, cells=128, margin=0, threads=0, progress=None):
     """Find the nearest point to every cell of a grid (thesis 2.1).
 
@@ -554,10 +548,9 @@ def voronoi(points, fields=None, *, cells=128, margin=0, threads=0, progress=Non
     ----------
     {points, fields}
     cells : int or three int
-        Cubes, so many along the longest side of the points' box; or as many boxes along
-        x, y and z.
+        Number of cubes along the longest side of the bounding box; or of boxes along x, y and z.
     margin : int
-        More cubes on each side; with one number of cells only.
+        Further cubes on each side; only with one number of cells.
     {threads, progress}
 
     Returns
@@ -579,24 +572,24 @@ def voronoi(points, fields=None, *, cells=128, margin=0, threads=0, progress=Non
 
 
 @_parameters.with_proposals
-@described()
 def info(points, fields=None, *, scale=(1.0, 1.0, 1.0), rotate=None, threads=0, progress=None):
-    """What samples hold: bounds, spacings, and the range of every number.
+    """Summarise samples: bounds, spacings, and the range of every field.
 
     Parameters
     ----------
     {points, fields}
-    scale, rotate
-        As those of `isosurface`, of the space that spacings are measured in; "auto" is
-        "spacing".
+    scale : sequence of three float, matrix of 3 rows, or "spacing"
+        Distances are measured in a stretched space: one factor per axis, or a matrix. "spacing" or
+        "auto": factors from the spacing of the samples along each axis.
+    {rotate}
     {threads, progress}
 
     Returns
     -------
     dict
         lower, upper, spacing (min, median, max), sampling, non_finite, duplicates,
-        warnings, per number of `fields` min, max, mean, finite, missing, histogram and
-        isovalues worth a look, and `names`, how many different ones columns of names have.
+        warnings; per component of `fields` min, max, mean, finite, missing, histogram and proposed
+        isovalues; and `names`: the number of different names per column of names.
 
     Examples
     --------

@@ -17,13 +17,24 @@ from ._samples import as_samples
 class Surface(Drawable, Points):
     """Points of one or several isosurfaces, with normals and all fields of the samples.
 
+    Further fields are `isovalue`, `mean_curvature` (per length; positive where the enclosed side is
+    convex), and
+
+    - `error`: estimated distance to the true surface, in units of length; NaN: no estimate;
+    - `support`: data coverage: 1 samples all around, 2 in a gap of the sampling, 3 at the rim of a
+      gap or of the data, 4 between samples that `fill_gaps` predicted, 0 not examined;
+    - `edge_length`: distance of the two samples that the point is between;
+    - `method`: 1 on the edge between these samples, 2 on a local fit, 3 on the kriged surface;
+    - `orientation`: source of the normal: 1 edge, 2 fit, 3 principal components, 4 edges around,
+      5 slope of the kriged field.
+
     Attributes
     ----------
     report : dict
-        Counts, milliseconds and warnings, the field, isovalues, isopoints of each,
-        scale, error, sampling, and what level sets, validation and meshes tell.
+        Counts, milliseconds, warnings, field, isovalues, isopoints of each, scale, `scale_choice` (score of
+        "auto"), error, sampling, `gaps`, and results of level sets, cross-validation and meshes.
     parameters : dict
-        All that it was extracted with, by the library's names; print() has a line for each.
+        All parameters that were used, by the library's names. print() shows one per line.
 
     Examples
     --------
@@ -62,17 +73,15 @@ class Surface(Drawable, Points):
         Parameters
         ----------
         remesh : {"even", "none"}
-            Even triangles, or those between the cells as they are.
+            Remesh to even triangles, or keep the raw triangles between the cells.
         edge_length : float
-            Of even triangles, about, in units of the coordinates; 0: that of the local
-            spacing. Edges are not made shorter than the spacing of the samples, which is
-            all that they tell.
+            Approximate edge length of even triangles, in units of the coordinates; 0: the local
+            spacing. Edges are not made shorter than the spacing of the samples.
         open : bool
-            Leave the surface open at the border of the samples instead of closing it.
+            Leave the surface open at the border of the samples. By default, caps close it.
         drop_pieces : int
-            Leave out pieces of fewer triangles.
-        threads, progress
-            As those of `isosurface`.
+            Remove pieces of fewer triangles.
+        {threads, progress}
 
         Returns
         -------
@@ -81,7 +90,7 @@ class Surface(Drawable, Points):
         Raises
         ------
         ValueError
-            For a surface without its samples, as pickled ones are.
+            If the surface has no samples, because it was pickled.
 
         Examples
         --------
@@ -100,24 +109,17 @@ class Surface(Drawable, Points):
 
     @_parameters.with_proposals
     def measure(self, curved=True, find_intersections=False, threads=0, progress=None, *, drop_unsure=False):
-        """Area, volume, axes, genus and integrals of fields, each with its error: those
-        of `mesh()` with its usual parameters. `pcl_uvol.measure` measures the points.
+        """Area, volume, axes, genus and integrals of fields of the closed mesh `mesh()`, each with its
+        error. To measure the points instead, use `pcl_uvol.measure`.
 
         Parameters
         ----------
-        curved : bool
-            Bend triangles as the normals of their vertices tell.
-        find_intersections : bool
-            Look for triangles that go through one another.
-        drop_unsure : bool
-            Leave out pieces whose error is as large as they are, as around debris.
-        threads, progress
-            As those of `isosurface`.
+        {others of measure}
 
         Returns
         -------
         Measures
-            Those of the first isovalue, with all others in `isovalues`.
+            The measures of the first isovalue. Its `isovalues` has all.
 
         Examples
         --------
@@ -167,8 +169,8 @@ class Surface(Drawable, Points):
 class Mesh(Surface):
     """A triangle mesh of one or several isosurfaces; its vertices are isopoints.
 
-    The field `piece` tells the connected piece of each vertex, `cap` is 1 where a vertex
-    closes the samples' box, `report["pieces"]` tells triangles, rims and genus of each.
+    Further fields are `piece`, the connected piece of each vertex, and `cap`: 1 where a vertex closes
+    the surface at the border of the samples. `report["pieces"]` has triangles, rims and genus of each.
 
     Attributes
     ----------
@@ -209,12 +211,12 @@ class Mesh(Surface):
 
         Parameters
         ----------
-        curved, find_intersections, drop_unsure, threads, progress
-            As those of `Surface.measure`.
+        {others of measure}
 
         Returns
         -------
         Measures
+            The measures of the first isovalue. Its `isovalues` has all.
 
         Examples
         --------
@@ -235,9 +237,9 @@ class Mesh(Surface):
         ----------
         path : str or os.PathLike
         ascii : bool
-            PLY as text.
-        progress : bool or callable, optional
-            See `isosurface`; files of meshes tell none.
+            Write PLY as text.
+        progress : bool or callable
+            It has no effect, because files of meshes report no progress.
 
         Examples
         --------
@@ -261,8 +263,7 @@ class Extractor:
 
     Parameters
     ----------
-    points, fields
-        As those of `Samples`, or samples.
+    {points, fields}
 
     Attributes
     ----------
@@ -299,13 +300,12 @@ class Extractor:
 
         Parameters
         ----------
-        iso, field, scale, rotate, outside, interpolation, neighbors, voronoi_cells, criterion, smooth, mu, level_set, normals, normal_neighbors, max_error, drop_bridged, fill_gaps, outside_value, validate, validate_by, mesh, periodic, periodic_mesh, threads, progress
-            As those of `isosurface`.
+        {others of isosurface}
 
         Returns
         -------
         Surface
-            With `mesh` a Mesh.
+            A `Mesh` if `mesh` is given.
 
         Examples
         --------
@@ -400,87 +400,94 @@ def isosurface(points, fields=None, **options):
     Parameters
     ----------
     points : array_like, shape (n, 3), or Samples
-    fields : mapping of str to array_like, optional
-        See `Samples`.
+        Coordinates, float32 or float64. `Samples` bring their fields along.
+    fields : mapping of str to array_like
+        Values at the points, shape (n,) or (n, k). NaN is a missing value. See `Samples`.
     iso : float or sequence of float
         Isovalues, in units of the field.
     field : str
-        The scalar: a field's name, `vel[1]`, `|vel|`, or an expression as `log10(rho)`.
-        By default `intensity`, else the only candidate.
-    scale : sequence of three float, matrix of 3 rows, "auto" or "spacing", optional
-        Factors per axis of the space that neighbours are found in, or the map to it;
-        "auto": as the field changes along each axis (`report["scale_choice"]` tells how
-        sure that is); "spacing": as far apart as samples lie along each. By default 1,
-        with `fill_gaps` "auto".
-    rotate : sequence of three float, optional
-        Strike, dip and plunge in degrees of the axes of the scale: x is east, y north.
-        The second axis is a line that plunges in a plane that dips, the third one the
-        plane's normal.
+        Name of a field, `vel[1]`, `|vel|`, or an expression such as `log10(rho)`.
+        "": `intensity`, otherwise the only candidate.
+    scale : sequence of three float, matrix of 3 rows, "auto" or "spacing"
+        Distances are measured in a stretched space: one factor per axis, or a matrix. "auto":
+        factors from the change of the field along each axis; "spacing": from the spacing of the
+        samples along each axis. By default, all factors are 1.
+    rotate : sequence of three float
+        Strike, dip and plunge of the axes of `scale`, in degrees; x is east, y is north. The second
+        axis is a line that plunges in a plane that dips. The third axis is the plane's normal.
     outside : {"lower", "higher"}
-        The side that normals point to: where values are lower, or higher.
+        Where the outside is, to which normals point: "lower" if it has the lower values, as around
+        a high density; "higher" if it has the higher values, as of a distance to a centre.
     interpolation : {"auto", "fit", "linear"}
-        Isopoints on local polynomial fits, or along the edges between samples; "auto"
-        decides for each point.
+        Place isopoints on local polynomial fits, or by linear interpolation on the edges between
+        samples. "auto" decides for each point.
     neighbors : {"kdtree", "voronoi", "exact"}
-        Where neighbours are looked for; voronoi_cells along the longest side, 0: 4
-        samples to a cell; "exact": natural neighbours by their Voronoi cells, which
-        takes much longer, and goes with the criterion "none".
+        Find neighbours in a k-d tree, in a discrete Voronoi diagram, or by the exact Voronoi cells
+        (natural neighbours). "exact" is much slower; use it with `criterion="none"`.
+    voronoi_cells : int
+        Cells of `neighbors="voronoi"` along the longest side; 0: 4 samples per cell.
     criterion : {"kept", "all", "none"}
-        See the library's AngleCriterion.
+        Angle criterion: closer candidates that can remove a farther neighbour: the kept ones, all, or none.
     smooth : bool
-        Smooth noisy or uneven samples by a level set first, with the weight `mu` of the
-        data in [0, 1] (by default from the values) and further parameters of the level
-        set in the dictionary `level_set`.
+        Smooth noisy or uneven samples by a level set first.
+    mu : float
+        With `smooth`: weight of the data against smoothness, 0 to 1. By default from the values.
+    level_set : dict
+        With `smooth`: further parameters of `level_set`, such as {"max_steps": 100}.
     normals : {"auto", "fit", "pca", "edge"}
-        How isopoints are oriented; pca takes `normal_neighbors` (default 30).
-    max_error : float or "auto", optional
-        Leave out isopoints of a larger estimated error, in units of length; "auto":
-        larger than half the distance of the two samples that an isopoint lies between, or
-        half a gap that was filled; crossings with lines of samples stay.
+        "pca": principal components of the isopoints; "fit": local fits, or principal components where
+        there is no fit; "edge": local fits, or the direction of the edge. "auto" selects by sampling.
+    normal_neighbors : int
+        Isopoints per normal by principal components.
+    max_error : float or "auto"
+        Remove isopoints with a larger `error`, in units of length. "auto": larger than half of the
+        distance between the two samples of the isopoint, or half of a filled gap. Crossings with
+        lines of samples are kept.
     drop_bridged : bool
-        Leave out isopoints in gaps of the sampling.
+        Remove isopoints in gaps of the sampling (`support` 2).
     fill_gaps : bool
-        Predict samples between lines or sheets of samples by kriging, up to the range of
-        the variogram and half a gap outside of the convex hull of all samples, and extract
-        from both: isopoints there have support 4, their `error` is the standard deviation over the slope, and `confidence` the part of
-        the variance that the samples explain; where that is nothing there are none with
-        interpolation "auto". `report["gaps"]` tells what was done.
-    outside_value : float, optional
-        Value of the field outside of the data, where it is known to end there, as the
-        density of a liquid does: samples of that value are added about one spacing
-        outside of the others, and surfaces are closed there (`Samples.outer_layer` gives
-        the samples). Interpolation "auto" is then "linear", but for meshes.
+        Predict samples between lines or sheets of samples by kriging, and extract from both.
+        Predictions end at the range of the variogram and half a gap outside of the convex hull of
+        all samples. Isopoints there have `support` 4. Their `error` is the kriging standard
+        deviation divided by the slope. Their `confidence` is the proportion of the variance that the
+        samples explain; if it is 0, interpolation "auto" removes them. `scale` is "auto" by default then.
+    outside_value : float
+        Value of the field outside of the data, where it is known to end there, such as the density
+        of a liquid. Samples of that value are added about one spacing outside of the others (see
+        `Samples.outer_layer`), and surfaces are closed there. Interpolation "auto" is then "linear",
+        except for meshes.
     validate : int
-        Parts of a hold-out test, at least 2; 0: none. validate_by is "random", "blocks"
-        or the name of a field.
-    mesh : bool or dict, optional
-        Make closed triangle meshes; parameters as those of `Surface.mesh`.
-    periodic : sequence of 3 floats, or "header", optional
-        Sides of the box that the samples repeat in, 0 along an axis for none, or those
-        that the file names (`Samples.box`): neighbours are seen across its faces, where a
-        mesh is cut.
-    periodic_mesh : "cut" or "weld"
-        With `mesh` and `periodic`. "weld": rims in opposite faces have the same vertices,
-        and the field `image_of` names the vertex that each is the image of, so that
-        `mesh["image_of"][mesh.triangles]` is the mesh closed across the faces.
+        Parts of a cross-validation, at least 2; 0: none.
+    validate_by : str
+        Parts are "random", compact "blocks", or the samples that share a value of the field of this name.
+    mesh : bool or dict
+        Make closed triangle meshes. A dictionary has parameters of `Surface.mesh`.
+    periodic : sequence of three float, or "header"
+        Sides of the periodic box, in units of length; 0 along an axis that is not periodic.
+        "header": the sides that the file names (`Samples.box`). Neighbours are found across its
+        faces. It cannot be combined with `rotate`.
+    periodic_mesh : {"cut", "weld"}
+        With `mesh` and `periodic`. "cut": the mesh ends at the faces of the box. "weld": rims in
+        opposite faces get the same vertices. The field `image_of` is the index of the vertex that
+        each is the image of: `mesh["image_of"][mesh.triangles]` is closed across the faces.
     threads : int
-        0: all cores. The result does not depend on it.
-    progress : bool or callable, optional
-        True: a bar; else called as progress(step, done) with the share done in [0, 1].
+        Number of threads; 0 uses all cores. The result does not depend on it.
+    progress : bool or callable
+        True shows a progress bar. A function is called as progress(step, done), done from 0 to 1.
 
     Returns
     -------
     Surface
-        With `mesh` a Mesh.
+        A `Mesh` if `mesh` is given. `Surface` explains its fields, such as `error` and `support`.
 
     Raises
     ------
     ValueError
-        For arrays and parameters that are of no use.
+        If an array or a parameter is not valid.
     FieldError
-        A KeyError, for a field that is not there.
+        A KeyError, if the field does not exist.
     MemoryError
-        Before the work begins, if the forecast exceeds what there is.
+        Before the work begins, if it needs more memory than is available.
 
     Examples
     --------

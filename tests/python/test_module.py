@@ -84,12 +84,27 @@ def list_functions():
                 yield f"{name}.{member}", value
 
 
-def test_every_parameter_is_documented():
-    elsewhere = {"raytrace": uvol.Surface.render, "orbit": uvol.Surface.render}  # "the others are those of"
+def test_every_parameter_is_documented_once_with_its_default():
+    for name, function in [*list_functions(), *((name, getattr(uvol, name)) for name in ("Extractor", "Interpolator", "Samples"))]:
+        section = inspect.getdoc(function).partition("Parameters\n----------\n")[2].partition("\n\n")[0]
+        heads = re.findall(r"(?m)^\S.*$", section)
+        parameters = inspect.signature(function).parameters
+        documented = [each.strip("*") for head in heads for each in head.partition(" : ")[0].split(", ")]
+        assert sorted(documented) == sorted(set(parameters) - {"self"}), name
+        for head in heads:
+            default = parameters[head.partition(" : ")[0].split(", ")[0].strip("*")].default
+            told = ", optional" if default is None else f", default {json.dumps(default) if isinstance(default, str) else default}"
+            assert default is inspect.Parameter.empty or head.endswith((told, ", optional")), (name, head)
+
+
+def test_docstrings_can_be_read_alone():
     for name, function in list_functions():
-        text = inspect.getdoc(function) + (inspect.getdoc(elsewhere.get(function.__name__)) or "")
-        for parameter in set(inspect.signature(function).parameters) - {"self"}:
-            assert re.search(rf"\b{parameter}\b", text), f"{name} says nothing of {parameter}"
+        assert not re.search(r"\b[Aa]s (those|that) of\b|(?m:^\{)", inspect.getdoc(function)), name
+    for function in (uvol.isosurface, uvol.Extractor.extract, uvol.level_set):
+        assert re.search(r"\noutside : .*\n    \w", inspect.getdoc(function))
+    for name in ("error", "support"):
+        assert f"- `{name}`: " in uvol.Surface.__doc__
+    assert "scale : sequence of three float" in uvol.info.__doc__ and "change of the field" not in uvol.info.__doc__
 
 
 def test_unknown_keywords_of_everything_get_a_proposal():
@@ -414,8 +429,9 @@ def test_parameters_are_explained_where_they_are_listed():
     assert "parameters" not in signature.parameters
     text = inspect.getdoc(uvol.level_set)
     assert "{parameters}" not in text
-    assert 'flow : {"mean", "relative"}\n    What smooths' in text and "\nk : int\n    Nearest neighbours" in text
-    assert "\nk : int\n    Nearest neighbours besides the point" in inspect.getdoc(uvol.normals)
+    assert 'flow : {"mean", "relative"}, default "relative"\n    What smooths' in text
+    assert "\nk : int, default 26\n    Nearest neighbours" in text
+    assert "\nk : int, default 30\n    Nearest neighbours besides the point" in inspect.getdoc(uvol.normals)
     with pytest.raises(TypeError, match="did you mean 'tolerance'"):
         uvol.level_set(np.zeros((3, 3)), iso=0, tolerence=1)
 
