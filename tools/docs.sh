@@ -27,8 +27,10 @@ for page in tests/benchmarks/diary/*.md; do
   sed -E 's#\]\(\.\./README\.md#](@benchmarks/measurements.md#g; s#\]\(\.\./\.\./\.\./docs/#](@#g
     s#\[([^]]*)\]\(\.\.?/[^)]*\)#\1#g; s#\]\(@#](../../#g' "$page" >"build/docs/source/benchmarks/diary/$(basename "$page")"
 done
-sed -E 's#\]\(\.\./docs/#](@#g; s#\[([^]]*)\]\(\.\.?/[^)]*\)#\1#g; s#\]\(@#](../#g' python/README.md \
+sed -E 's#\]\(\.\./docs/#](@#g; s#\]\(\.\./examples/notebooks\)#](@notebooks/sph_star.md)#
+  s#\[([^]]*)\]\(\.\.?/[^)]*\)#\1#g; s#\]\(@#](../#g' python/README.md \
   >build/docs/source/guide/python.md
+python3 docs/site/render_notebooks.py examples/notebooks/*.ipynb build/docs/source/notebooks
 mkdocs build --quiet --strict
 doxygen docs/site/Doxyfile
 python3 docs/site/check_api.py build/docs/doxygen_warnings.txt

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The notebooks of the examples run from start to end."""
+"""The notebooks of the examples run from start to end, and are pages of the site."""
 
 import pathlib
 
@@ -19,6 +19,12 @@ def test_notebook_runs_and_shows_what_it_holds(path):
     for before, after in zip(kept.cells, run.cells):
         if before.cell_type == "code":
             assert printed(after) == printed(before)
+
+
+def test_every_notebook_is_a_page_of_the_site():
+    navigation = (FOLDER.parents[1] / "mkdocs.yml").read_text()
+    for path in FOLDER.glob("*.ipynb"):
+        assert f"notebooks/{path.stem}.md\n" in navigation
 
 
 def printed(cell):
