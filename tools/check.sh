@@ -2,6 +2,7 @@
 # Checks that go beyond the tests, on Debian 12; prints what each ran and how long it took.
 # usage: check.sh [STEP...], by default all in this order:
 #   format     clang-format has nothing to change, and tags of Doxygen begin their lines
+#   spelling   codespell knows no misspelt word in what git knows, data excluded
 #   layers     includes go downwards only
 #   tidy       clang-tidy finds nothing in any source of the release preset
 #   asan tsan  every test passes under the sanitizers of that preset
@@ -40,6 +41,13 @@ check_format() {
   fi
 }
 
+check_spelling() {
+  bash tools/install_dependencies.sh codespell || return
+  # Terms and names that it takes for others; \n before a word of a string; pictures of notebooks.
+  git ls-files -z -- ':!tests/data' ':!tests/fuzz/corpus' | xargs -0 codespell --quiet-level 3 --check-hidden \
+    --ignore-words-list ore,pres,unser,positionof,nin --ignore-regex '[A-Za-z0-9+/=\\]{77,}'
+}
+
 tidy_file() { # FILE FINGERPRINT_OF_HEADERS
   local key
   key="$(sha256sum "$1") $2"
@@ -70,15 +78,15 @@ check_preset() { # PRESET: its tests, one module after the other
 
 tree=$(fingerprint)
 steps=("$@")
-[ $# -gt 0 ] || steps=(format layers tidy asan tsan mutation)
+[ $# -gt 0 ] || steps=(format spelling layers tidy asan tsan mutation)
 for step in "${steps[@]}"; do
   case $step in
-    format | tidy) once "$step" "check_$step" ;;
+    format | spelling | tidy) once "$step" "check_$step" ;;
     layers) once layers bash tests/tools/check_layers.sh . ;;
     asan | tsan) once "$step" check_preset "$step" ;;
     mutation) once mutation python3 tests/mutation/run.py ;;
     *)
-      echo "check.sh: there is no step '$step'; there are format, layers, tidy, asan, tsan and mutation." >&2
+      echo "check.sh: there is no step '$step'; there are format, spelling, layers, tidy, asan, tsan and mutation." >&2
       exit 2
       ;;
   esac

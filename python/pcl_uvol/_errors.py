@@ -13,10 +13,10 @@ class FieldError(KeyError):
     Examples
     --------
     >>> try:
-    ...     uvol.Samples(np.eye(3), {"density": [1.0, 2.0, 3.0]})["desnity"]
+    ...     uvol.Samples(np.eye(3), {"density": [1.0, 2.0, 3.0]})["densty"]
     ... except uvol.FieldError as error:  # a KeyError
     ...     print(error)
-    There is no field 'desnity' (did you mean 'density'?); the fields are density.
+    There is no field 'densty' (did you mean 'density'?); the fields are density.
     """
 
     code = None

@@ -169,7 +169,7 @@ TEST(BadFiles, PcdHeaders)
            {"COUNT 1", "COUNT 99999999999"},
            {"FIELDS x", "FIELDS q"},
            {"DATA ascii", "DATA text"},
-           {"VERSION", "VERSIN"}})
+           {"VERSION", "VERSI"}})
     EXPECT_NE(errorOf("a.pcd", replaced(good, from, to)), "") << to;
   EXPECT_NE(
       errorOf("a.pcd", replaced(good, "TYPE F F F F", "TYPE F F F Q")).find("'a'"),
@@ -230,7 +230,7 @@ TEST(BadFiles, PlyHeaders)
            {"vertex 2", "vertex 3000000000000"},
            {"vertex 2", "vertex -2"},
            {"pre 1", "pre 18446744073709551615"},
-           {"vertex 2", "vertix 2"},
+           {"vertex 2", "vertax 2"},
            {"format ascii", "format text"},
            {"format ascii 1.0\n", ""},
            {"end_header", "end_heads"},

@@ -490,10 +490,10 @@ def test_memory_that_is_not_there_is_told_with_what_it_is_for(run_python, call, 
 @pytest.mark.parametrize("call, message", [
     (lambda sphere: uvol.isosurface(sphere, iso=1, smoth=True), r"isosurface\(\) has .*'smoth' \(did you mean 'smooth'\?\)"),
     (lambda sphere: uvol.isosurface(sphere), r"isosurface\(\) needs the keyword 'iso'"),
-    (lambda sphere: uvol.Extractor(sphere).extract(iso=1, feild="r"), r"extract\(\) .*\(did you mean 'field'\?\)"),
+    (lambda sphere: uvol.Extractor(sphere).extract(iso=1, fild="r"), r"extract\(\) .*\(did you mean 'field'\?\)"),
     (lambda sphere: sphere.render(colour="r"), r"render\(\) .*'colour' \(did you mean 'color'\?\)"),
     (lambda sphere: sphere.orbit(3, colour="r"), r"orbit\(\) .*\(did you mean 'color'\?\)"),
-    (lambda sphere: uvol.Interpolator(sphere, modle="fit"), r"Interpolator\(\) .*\(did you mean 'model'\?\)"),
+    (lambda sphere: uvol.Interpolator(sphere, modl="fit"), r"Interpolator\(\) .*\(did you mean 'model'\?\)"),
     (lambda sphere: uvol.voronoi(sphere, cell=3), r"voronoi\(\) .*\(did you mean 'cells'\?\)"),
     (lambda sphere: uvol.cluster(sphere, entirely_else=3), r"cluster\(\) has no keyword 'entirely_else'\.$"),
 ])

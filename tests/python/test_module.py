@@ -433,7 +433,7 @@ def test_parameters_are_explained_where_they_are_listed():
     assert "\nk : int, default 26\n    Nearest neighbours" in text
     assert "\nk : int, default 30\n    Nearest neighbours besides the point" in inspect.getdoc(uvol.normals)
     with pytest.raises(TypeError, match="did you mean 'tolerance'"):
-        uvol.level_set(np.zeros((3, 3)), iso=0, tolerence=1)
+        uvol.level_set(np.zeros((3, 3)), iso=0, tolerane=1)
 
 
 def test_module_works_without_docstrings():

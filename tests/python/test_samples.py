@@ -135,7 +135,7 @@ def test_dataframes():
     back = samples.to_dataframe()
     assert back[["x", "y", "z"]].to_numpy().tolist() == POINTS.tolist() and back["T"][2] == 3
     with pytest.raises(KeyError, match="did you mean 'name'"):
-        uvol.Samples.from_dataframe(frame, fields=["T", "nane"])
+        uvol.Samples.from_dataframe(frame, fields=["T", "nme"])
 
 
 @pytest.mark.parametrize("values, kind, expected", [
@@ -382,10 +382,10 @@ def test_samples_that_no_stage_made_have_no_report():
 def test_a_missing_field_gets_a_proposal():
     samples = uvol.Samples(POINTS, {"density": [1, 2, 3]})
     with pytest.raises(KeyError) as caught:
-        samples["desnity"]
+        samples["densty"]
     assert "did you mean 'density'" in str(caught.value)
     with pytest.raises(uvol.FieldError, match="did you mean 'density'"):
-        samples.compute("log10(desnity)")
+        samples.compute("log10(densty)")
 
 
 def test_columns_that_are_none_get_a_sentence(tmp_path):
