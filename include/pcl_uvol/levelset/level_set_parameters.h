@@ -308,7 +308,7 @@ struct PCL_UVOL_EXPORTS LevelSetParameters {
         Member{"initial", &Own::initial},
         Member{"outside",
                &Own::outside,
-               {"of a shape to start from: its outside is where values are so"}},
+               {"with an initial shape: values outside of it are lower or higher"}},
         Member{"scale", &Own::scale},
         Member{"rotation", &Own::rotation},
         Member{"k",
