@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes the tables of messages in docs/reference/errors.md from src/common/warning_texts.cpp and error_texts.cpp.
-The last column (what to do) is kept. Lists codes that the sources use but no table has, and codes that no source uses.
+"""Writes the warnings and errors of docs/reference/errors.md, in alphabetical order, from src/common/warning_texts.cpp
+and error_texts.cpp. A warning has a heading that one can link to, its text, and what to do; an error is a row of a table.
+What to do is kept from the page. Lists codes that the sources use but no table has, and codes that no source uses.
 
 usage: list_messages.py REPOSITORY [--check]     --check: list what would change, with exit code 1; write nothing
 """
@@ -9,12 +10,13 @@ import pathlib
 import re
 import sys
 
-TABLES = {"Warnings": "src/common/warning_texts.cpp", "Errors": "src/common/error_texts.cpp"}
+TABLES = {"Warnings A-Z": "src/common/warning_texts.cpp", "Errors A-Z": "src/common/error_texts.cpp"}
 PAGE = "docs/reference/errors.md"
 BEGIN, END = "<!-- messages: made by docs/site/list_messages.py -->\n", "<!-- end of messages -->\n"
 LITERALS = r'((?:"(?:[^"\\\n]|\\.)*"\s*)+)'
 ROW = re.compile(r'\{"([a-z0-9_]+)",\s*' + LITERALS + r"\}")
 USED = re.compile(r'(?:\b(?:warn|Message|throw (?:\w+::)*\w+)\(|push_back\(\{)\s*"([a-z0-9_]+)",\s*[{v]')
+ADVICE = re.compile(r"^\| `([a-z0-9_]+)` \|.*\| (.*?) ?\|$|^### `([a-z0-9_]+)`\n\n> .*\n\n([^#\n].*)$", re.MULTILINE)
 TEXT = "text"  # the code of texts that are in no table
 QUOTED = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
 
@@ -70,15 +72,28 @@ def readable(text):
             one, other = (readable(part) for part in (parts[1:] + [""])[:2])
             # Of two clauses both are shown, of "point" and "points" the second.
             words = sorted([one.count(" "), other.count(" ")])
-            shown += f"{other.strip()} / {one.strip()}" if words >= [3, 5] and words[1] >= 5 else other or one
+            shown += (" " if other[:1] == " " else "") + f"{other.strip()} / {one.strip()}" if words[0] >= 2 else other or one
         i = end + 1
     return shown.replace("|", "\\|").replace("\\n...", "")  # the marked lines of an expression
 
 
+def escaped(text):
+    """Text outside of `code` without characters that Markdown or HTML would take."""
+    return "".join(part if i % 2 else part.replace("*", "\\*").replace("<", "&lt;") for i, part in enumerate(re.split("(`[^`]*`)", text)))
+
+
+def make_headings(rows, advice):
+    sections = []
+    for code, text in sorted(rows.items()):
+        shown = escaped(readable(text)).replace("\\|", "|")
+        sections.append(f"### `{code}`\n\n> {shown}\n" + (f"\n{advice[code]}\n" if advice.get(code) else ""))
+    return "\n".join(sections)
+
+
 def make_table(rows, advice):
     lines = ["| code | text | what to do |\n", "|---|---|---|\n"]
-    for code, text in rows.items():
-        lines.append(f"| `{code}` | {readable(text)} | {advice.get(code, '')} |\n".replace("|  |", "| |"))
+    for code, text in sorted(rows.items()):
+        lines.append(f"| `{code}` | {escaped(readable(text))} | {advice.get(code, '')} |\n".replace("|  |", "| |"))
     return "".join(lines)
 
 
@@ -96,8 +111,9 @@ def main():
         sys.exit(f"{PAGE} lacks the markers of the table: {BEGIN}{END}")
     before, rest = page.split(BEGIN)
     old, after = rest.split(END)
-    advice = dict(re.findall(r"^\| `([a-z0-9_]+)` \|.*\| (.*?) ?\|$", old, re.MULTILINE))
-    made = before + BEGIN + "\n".join(f"### {title}\n\n" + make_table(rows, advice) for title, rows in tables.items()) + END + after
+    advice = {row or heading: words or paragraph for row, words, heading, paragraph in ADVICE.findall(old)}
+    made = before + BEGIN + "\n".join(f"## {title}\n\n{write(rows, advice)}" for (title, rows), write
+                                      in zip(tables.items(), (make_headings, make_table))) + END + after
     if made != page:
         if "--check" in sys.argv:
             wrong.append(f"{PAGE} is out of date. Try: python3 docs/site/list_messages.py .")
