@@ -642,7 +642,7 @@ const MessageText error_rows[] = {
      "which is not installed. Try: h5repack -f GZIP=4 on a machine with the filter."},
     {"swapped_bytes",
      "Cannot read '{path}': the numbers of '{name}' are in the byte order of this "
-     "machine, but legacy VTK files are big-endian. Try: write it as big-endian or as "
+     "machine, but legacy VTK files are big-endian. Try: write it as big-endian or "
      ".vtu."},
     {"tecplot_blocks",
      "Cannot read '{path}': its zone has BLOCK packing. Try: write it with "

@@ -104,8 +104,8 @@ const MessageText warning_rows[] = {
      "{is_lower_outside|{-outside higher}|{-outside lower}}."},
     {"folds",
      "{folds} of {triangles} triangles are inverted{is_even| and {slivers} have angles "
-     "below 5 degrees|}. The samples are sparse, noisy or stretched there. Try: "
-     "{-fill-gaps} (lines), {-smooth} (noise), or isopoints without a mesh."},
+     "below 5 degrees|}. Samples there are sparse, noisy or stretched. Try: "
+     "{-fill-gaps} (lines), {-smooth} (noise), or isopoints."},
     {"open_pieces",
      "{open} of {pieces} pieces are open, or their outside contradicts other pieces. "
      "They enclose no volume, and only their area is measured."},
@@ -113,17 +113,16 @@ const MessageText warning_rows[] = {
      "The area or volume of {vague} of {surfaces} surfaces is uncertain by more than a "
      "third, because the errors of the vertices are large."},
     {"missed_samples",
-     "At {isovalue} the surface encloses {enclosed} samples, but {beyond} are beyond "
-     "the isovalue. {encloses_more|It is not constrained between samples.|It is "
-     "coarser than small clumps, or omits them.} Try: the sum beyond the isovalue, for "
-     "masses."},
+     "The surface at {isovalue} encloses {enclosed} samples; {beyond} are beyond the "
+     "isovalue. {encloses_more|It is unconstrained between samples.|It misses small "
+     "clumps.} Try: sums beyond the isovalue (masses)."},
     {"kept_unsure_pieces",
      "All pieces of some isovalues ({kept} of {pieces}) have an error as large as the "
      "piece. They are kept, because no others exist. Try: other isovalues."},
     {"unsure_pieces",
-     "{unsure} of {pieces} pieces (area {area} +- {error}) have an error as large as "
-     "the piece: few samples surround them, or only distant debris. {are_left_out|They "
-     "are excluded from all measures.|Try: {-drop-unsure} to exclude them.}"},
+     "{unsure} of {pieces} pieces (area {area} +- {error}) have errors as large as "
+     "themselves: few samples surround them, or debris. {are_left_out|They are "
+     "excluded.|Try: {-drop-unsure} to exclude them.}"},
     {"flat_surfaces",
      "{flat} of {surfaces} surfaces are flat: they have no volume and enclose no "
      "samples. If all samples are in one plane, the isosurface is a curve."},
@@ -147,17 +146,17 @@ const MessageText warning_rows[] = {
 
     // levelset
     {"vanished",
-     "The level set of {field} at the isovalue {isovalue} has vanished. "
-     "{starts_from_values|Smoothing removed the whole surface. Try: a larger "
-     "{-mu}.|Inside and outside may be swapped. Try: {-outside}, or no custom start.}"},
+     "The level set of {field} at {isovalue} vanished. {starts_from_values|Smoothing "
+     "removed it. Try: a larger {-mu}.|Inside and outside may be swapped. Try: "
+     "{-outside}, or no custom start.}"},
     {"tied_values",
      "{percent:2} % of the values next to the isovalue {isovalue} are identical "
      "(rounded or clipped). The noise is unknown, and nothing was smoothed. Try: {-mu "
      "0.1}."},
     {"not_converged",
-     "The level set at {isovalue} has not converged after {steps} {steps|step|steps}: "
-     "it moves by {change:2} spacings per unit of time.{is_last_stage|| It ended at mu "
-     "{mu:2}, not {chosen_mu:2}.}"},
+     "The level set at {isovalue} has not converged by step {steps}: it moves "
+     "{change:2} spacings per unit time.{is_last_stage|| Mu ended at {mu:2}, not "
+     "{chosen_mu:2}.}"},
     {"lost_features",
      "Smoothing removed features: {lost} {lost|sample is|samples are} now across the "
      "surface, farther from the isovalue {isovalue} than noise explains. Try: {-mu} "
@@ -204,11 +203,10 @@ const MessageText warning_rows[] = {
      "{percent} % of the isopoints are at the border of the samples or in gaps. The "
      "surface may continue there. Try: samples farther out, if available."},
     {"guessed_isopoints",
-     "{percent} % of the isopoints are between lines of samples or next to gaps. The "
-     "surface is reliable where it crosses a line, and not constrained "
-     "elsewhere.{validate| Check it with {-validate}.|}{scale| Try: {-scale}{gaps| or "
-     "{-fill-gaps}|}.|{gaps| Try: {-fill-gaps}.|}}{bridged| {-drop-bridged} removes "
-     "the isopoints in gaps.|}"},
+     "{percent} % of isopoints are between sample lines or next to gaps. Only "
+     "crossings with lines are reliable. Try: {validate|{-validate}, "
+     "|}{scale|{-scale}, |}{gaps|{-fill-gaps}, |}{bridged|{-drop-bridged}, |}more "
+     "samples."},
     {"smoothed_guesses",
      "{percent} % of the isopoints are between lines of samples or next to gaps. The "
      "surface is not constrained there. Try: {-validate} and {-fill-gaps} with the "
@@ -246,15 +244,15 @@ const MessageText warning_rows[] = {
      "{-where} against outliers."},
     {"lines_tell_better",
      "Near the surface, the nearest sample classifies held-out samples better than the "
-     "surface does. Use only the crossings with lines of samples.{scale| Try: "
-     "{-scale}{gaps| or {-fill-gaps}|}.|{gaps| Try: {-fill-gaps}.|}}"},
+     "surface. Use only the crossings with lines.{scale| Try: {-scale}{gaps| or "
+     "{-fill-gaps}|}.|{gaps| Try: {-fill-gaps}.|}}"},
     {"small_errors",
      "More than 20 % of the held-out samples beyond the estimated error are on the "
      "wrong side. Errors are too small, or samples noisy. Do not filter by error."},
     {"unfilled_gaps",
      "There are gaps between the samples, but none was filled: {reason}."},
     {"few_filled_gaps",
-     "Few gaps were filled: at {surer} of {crossings} crossings of the surface in "
+     "Few gaps were filled: at {by_fits} of {crossings} crossings of the surface in "
      "gaps, local fits have smaller standard errors than kriging. No action is "
      "needed."},
     {"no_isopoints_in_gaps",
@@ -272,9 +270,8 @@ const MessageText warning_rows[] = {
      "Some isovalues are equal in float, so the field isovalue cannot distinguish "
      "them. Try: extract them one at a time."},
     {"edges_without_image",
-     "{left} of {edges} edges in the faces of the box have no image in the opposite "
-     "face. The mesh is open there: the surface is tangent, or samples are sparse or "
-     "noisy."},
+     "{left} of {edges} edges in box faces have no image in the opposite face. The "
+     "mesh is open there: the surface is tangent, or samples sparse or noisy."},
 
     // render
     {"no_logarithms",
@@ -286,10 +283,9 @@ const MessageText warning_rows[] = {
      "The distance is less than half of the cluster's longest spanning-tree edge, "
      "{edge}. The surface breaks into pieces. Try: a larger distance."},
     {"shared_cells",
-     "The {points} points of the cluster are in only {cells} grid cells, and the "
-     "{is_distance|surface surrounds these cells|hull uses one point per cell}. Try: a "
-     "finer grid, or exclude distant points{has_outlier| (point {point} is {ratio} "
-     "times as far from the centre as the median)|}."},
+     "The {points} points share {cells} grid cells, so the surface is coarse. Try: a "
+     "finer grid, or exclude outliers{has_outlier| (point {point}: {ratio} times the "
+     "median distance)|}."},
 
     // filters
     {"renamed_array", "The array '{array}' is renamed to '{name}'."},
@@ -311,9 +307,9 @@ const MessageText warning_rows[] = {
     {"point_groups",
      "{groups} {groups|group|groups} of points {groups|is|are} ignored."},
     {"mixed_units",
-     "Coordinates are {x}, {y} and {z}, so distances mix {are_degrees|degrees with "
-     "another unit|different units of length}. Try: {can_be_mapped|{-map auto} "
-     "(degrees to kilometres or metres)|columns in one unit}, or factors ({-scale})."},
+     "Coordinates are {x}, {y} and {z}: distances mix {are_degrees|degrees with "
+     "another unit|units of length}. Try: {can_be_mapped|{-map auto} for "
+     "degrees|columns in one unit}, or {-scale}."},
     {"common_ending",
      "The columns {x}, {y} and {z} are used as coordinates, because their names differ "
      "in one letter only. Try: {-xyz} to choose other columns."},
@@ -366,10 +362,9 @@ const MessageText warning_rows[] = {
     {"decimal_commas", "Numbers have decimal commas: 0,5 is read as one half."},
     {"first_zone", "Of the Tecplot zones, the first one is read, as points."},
     {"below_detection",
-     "{cells} values of '{column}' are below a detection limit, for example <0.25. The "
+     "{cells} values of '{column}' are below detection limits, for example <0.25. The "
      "limit is used, and '{flag}' is 1 there. Try: {column}*(1-0.5*{flag}) for half "
-     "the "
-     "limit."},
+     "the limit."},
     {"guessed_coordinates",
      "The header does not name x, y and z. The first three columns{skips_times| that "
      "are not times|} ({x}, {y}, {z}) are used. Try: {-xyz} to choose others."},

@@ -284,7 +284,7 @@ FilledGaps::predictBetween(const pcl::PointCloud<PointIso>& roots,
   predict(seeds, parameters, threads, report);
   if (summary_.predicted > 0 && 2 * uncertain < in_gaps)
     report.warn("few_filled_gaps",
-                {{"surer", in_gaps - uncertain}, {"crossings", in_gaps}});
+                {{"by_fits", in_gaps - uncertain}, {"crossings", in_gaps}});
 }
 
 void

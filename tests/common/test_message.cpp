@@ -126,11 +126,11 @@ TEST(Message, ValuesOfParametersHoldValues)
   }
 }
 
-TEST(Message, ChoicesHoldChoices)
+TEST(Message, ListWhatMayBeTried)
 {
   const std::string guess =
-      "40 % of the isopoints are between lines of samples or next to gaps. The surface "
-      "is reliable where it crosses a line, and not constrained elsewhere.";
+      "40 % of isopoints are between sample lines or next to gaps. Only crossings with "
+      "lines are reliable. Try: ";
   for (const bool validate : {false, true})
     for (const bool scale : {false, true})
       for (const bool gaps : {false, true}) {
@@ -145,16 +145,8 @@ TEST(Message, ChoicesHoldChoices)
                                   const std::string& factors,
                                   const std::string& filling,
                                   const std::string& dropping) {
-          std::string text = guess;
-          if (validate)
-            text += " Check it with " + test + ".";
-          if (scale && gaps)
-            text += " Try: " + factors + " or " + filling + ".";
-          else if (scale || gaps)
-            text += " Try: " + (scale ? factors : filling) + ".";
-          if (!gaps)
-            text += " " + dropping + " removes the isopoints in gaps.";
-          return text;
+          return guess + (validate ? test + ", " : "") + (scale ? factors + ", " : "") +
+                 (gaps ? filling : dropping) + ", more samples.";
         };
         EXPECT_EQ(expected("validate", "scale", "fill_gaps", "drop_bridged"),
                   message.text());
@@ -163,6 +155,21 @@ TEST(Message, ChoicesHoldChoices)
         EXPECT_EQ(expected("Validate", "Scale", "FillGaps", "DropBridged"),
                   message.text(ParameterNames::Properties));
       }
+}
+
+TEST(Message, ChoicesHoldChoices)
+{
+  const auto advise = [](bool scale, bool gaps) {
+    const std::string text =
+        Message("lines_tell_better", {{"scale", scale}, {"gaps", gaps}})
+            .text(ParameterNames::Options);
+    return text.substr(text.find("Use "));
+  };
+  const std::string use = "Use only the crossings with lines.";
+  EXPECT_EQ(use, advise(false, false));
+  EXPECT_EQ(use + " Try: -fill-gaps.", advise(false, true));
+  EXPECT_EQ(use + " Try: -scale.", advise(true, false));
+  EXPECT_EQ(use + " Try: -scale or -fill-gaps.", advise(true, true));
 }
 
 TEST(Message, OneIsNotMany)
@@ -218,11 +225,10 @@ TEST(Message, OneOfTwoMayBeEmpty)
                     {"chosen_mu", 10}})
         .text();
   };
-  const std::string begin = "The level set at 0.5 has not converged after ",
-                    end = ": it moves by 0.012 spacings per unit of time.";
-  EXPECT_EQ(begin + "1 step" + end, evolved(1, true));
-  EXPECT_EQ(begin + "200 steps" + end + " It ended at mu 0.26, not 10.",
-            evolved(200, false));
+  const std::string begin = "The level set at 0.5 has not converged by step ",
+                    end = ": it moves 0.012 spacings per unit time.";
+  EXPECT_EQ(begin + "1" + end, evolved(1, true));
+  EXPECT_EQ(begin + "200" + end + " Mu ended at 0.26, not 10.", evolved(200, false));
 }
 
 TEST(Message, WholeNumbersHaveAllDigitsAndOthersSix)

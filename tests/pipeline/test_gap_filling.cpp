@@ -93,10 +93,9 @@ TEST(GapFilling, IsAdvisedAsOtherOptionsThatWereNotGiven)
     EXPECT_EQ(is_scaled ? 0.0 : 1.0, numberOf(*told, "scale"));
     EXPECT_EQ(1.0, numberOf(*told, "gaps"));
     const std::string text = told->text(ParameterNames::Options),
-                      advice = "not constrained elsewhere. Check it with -validate. "
-                               "Try: ";
+                      advice = "reliable. Try: -validate, ";
     EXPECT_NE(std::string::npos,
-              text.find(advice + (is_scaled ? "-fill-gaps." : "-scale or -fill-gaps.")))
+              text.find(advice + (is_scaled ? "-fill-gaps, " : "-scale, -fill-gaps, ")))
         << text;
   }
 }

@@ -283,7 +283,8 @@ TEST(ReliableFits, PredictBetweenProfilesAndNotInStretchedCells)
   const auto filled = uvol_test::runPipeline(samples, makeParameters(0.0, true), 1);
   const auto few = uvol_test::findWarning(filled, "few_filled_gaps");
   ASSERT_TRUE(few);
-  EXPECT_LT(uvol_test::numberOf(*few, "surer"), uvol_test::numberOf(*few, "crossings"));
+  EXPECT_LT(uvol_test::numberOf(*few, "by_fits"),
+            uvol_test::numberOf(*few, "crossings"));
   const auto takeCells = [](const IsosurfaceResult& result) {
     pcl::PointCloud<PointIso> points;
     for (const PointIso& point : uvol_test::toIsopoints(result))

@@ -164,7 +164,7 @@ TEST_F(LevelSetTool, SaysThatItEndedTooEarly)
   const auto result = run("-iso 0 -steps 2");
   EXPECT_EQ(0, result.exit_code);
   EXPECT_NE(std::string::npos,
-            (result.out + result.err).find("has not converged after 2 steps"));
+            (result.out + result.err).find("has not converged by step 2"));
 }
 
 } // namespace test_uvol_levelset
