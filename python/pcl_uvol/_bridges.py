@@ -184,7 +184,7 @@ def from_vtk(dataset):
     Raises
     ------
     TypeError
-        For what is no vtkDataSet.
+        If `dataset` is not a vtkDataSet.
 
     Examples
     --------
@@ -197,7 +197,7 @@ def from_vtk(dataset):
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from ._samples import Samples
     if not hasattr(dataset, "GetPointData"):
-        raise TypeError(f"{_parameters.shown(dataset)} is no vtkDataSet.")
+        raise TypeError(f"{_parameters.shown(dataset)} is not a vtkDataSet.")
     if not hasattr(dataset, "GetPoints"):  # a regular grid, whose points are not stored
         from vtkmodules.vtkFiltersCore import vtkAppendFilter
         append = vtkAppendFilter()

@@ -151,7 +151,7 @@ class Lattice:
         from . import _io
         path = os.fsdecode(path)
         if not _io.is_lattice_file(os.fsencode(path)):
-            raise ValueError(f"{path!r} is no file of a lattice: its name must end in .vti, .vts, .nrrd or .mha.")
+            raise ValueError(f"{path!r} is not a file of a lattice: its name must end in .vti, .vts, .nrrd or .mha.")
         arrays = []
         for name, values in self._columns.items():
             is_short = name in self._short or name.endswith(("_error", "_gradient"))

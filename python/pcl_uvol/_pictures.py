@@ -337,7 +337,7 @@ class Drawable:
         from . import _charts
         path = os.fsdecode(path)
         if not path.endswith(".html"):
-            raise ValueError(f"{path!r} is no web page: its name must end in .html.")
+            raise ValueError(f"{path!r} is not a web page: its name must end in .html.")
         look = look_of(1024, view, eye, at, up, fov, parallel, zoom, background, 0)
         look.update(self._colors(color, colormap, range, log, bar, surface_color, exaggerate, lights, material))
         count = _parameters.count(threads, "threads")

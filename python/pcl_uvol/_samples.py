@@ -113,7 +113,7 @@ class Samples(Drawable, Points):
         Samples of 2 points: T (int64)
         """
         if _names_of(frame) is None:
-            raise TypeError(f"{_parameters.shown(frame)} is no table: it must be a pandas.DataFrame or an xarray.Dataset.")
+            raise TypeError(f"{_parameters.shown(frame)} is not a table: it must be a pandas.DataFrame or an xarray.Dataset.")
         return cls(*_columns_of(frame, points, fields))
 
     @_parameters.with_proposals

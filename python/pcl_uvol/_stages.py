@@ -307,7 +307,7 @@ class Clusters:
         members = np.flatnonzero(self.labels == cluster) if isinstance(cluster, (int, np.integer)) else []
         if len(members) == 0:
             known = f"they are numbered from 0 to {len(self) - 1}" if len(self) else "none was found"
-            raise ValueError(f"There is no cluster {_parameters.shown(cluster)}: {known}.")
+            raise ValueError(f"The cluster {_parameters.shown(cluster)} does not exist: {known}.")
         return members
 
     def __len__(self):

@@ -49,7 +49,7 @@ def test_grids_of_vtk():
     assert len(samples) == 24 and samples["n"].dtype == np.int16
     assert samples.points[1].tolist() == [1.5, 2, 3] and samples.points[23].tolist() == [1.5, 4, 9]
     assert len(uvol.from_vtk(vtkPolyData())) == 0
-    with pytest.raises(TypeError, match="no vtkDataSet"):
+    with pytest.raises(TypeError, match="not a vtkDataSet"):
         uvol.from_vtk([1, 2])
 
 

@@ -328,7 +328,7 @@ def test_info(ball):
     (lambda b: uvol.cluster(*b, attributes=3), TypeError, "sequence"),
     (lambda b: uvol.cluster(*b, attributes=[3]), TypeError, "must be a text"),
     (lambda b: uvol.cluster(*b, labels=b[1]["id"]).take(5000), ValueError, "numbered from 0 to 3999"),
-    (lambda b: uvol.cluster(*b, labels=b[1]["id"]).surface("a", "hull"), ValueError, "no cluster 'a'"),
+    (lambda b: uvol.cluster(*b, labels=b[1]["id"]).surface("a", "hull"), ValueError, "cluster 'a' does not exist"),
     (lambda b: uvol.cluster(*b, attributes=["q"]), KeyError, "no field"),
     (lambda b: uvol.cluster(*b, attributes=[]), ValueError, "attribute"),
     (lambda b: uvol.cluster(*b, attributes=["r"], labels=b[1]["id"]), ValueError, "give one of them"),
