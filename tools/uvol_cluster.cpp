@@ -278,9 +278,10 @@ run(int argc, char** argv)
   Arguments arguments;
   Options options("uvol_cluster",
                   "in.csv out.ply [options]",
-                  "Finds clusters of points by the density of their attributes, and "
-                  "surfaces around them.\nAdds the fields label (-1: noise) and "
-                  "probability; -cluster chooses one of the clusters.");
+                  "Find clusters of points by the density of their attributes, and "
+                  "surfaces around them.\n"
+                  "Output: fields label (-1: noise) and probability; -cluster "
+                  "selects one cluster.");
   arguments.declare(options);
   if (!options.parse(argc, argv))
     return 0;

@@ -112,10 +112,11 @@ run(int argc, char** argv)
   Options options(
       "uvol_compare",
       "a.ply b.ply [out.ply] [options]",
-      "Measures the distances between two surfaces, each from the other, and the "
-      "differences of the fields that both have.\nSurfaces are meshes (ply vtp vtkhdf "
-      "obj off stl) or points. Writes a with the field distance, negative inside b. "
-      "Use uvol_render -color distance to draw it.");
+      "Measure the distances between two surfaces in both directions, and "
+      "differences of common fields.\n"
+      "Surfaces: meshes (ply vtp vtkhdf obj off stl) or points. Output: a with the "
+      "field distance,\n"
+      "negative inside b (draw it by uvol_render -color distance).");
   options.file("a", first);
   options.file("b", second);
   options.file("out", output, false);

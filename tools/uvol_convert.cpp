@@ -19,10 +19,12 @@ run(int argc, char** argv, uvol_tools::SeriesStep* /*step*/)
   uvol_tools::Options options(
       "uvol_convert",
       "in.hdf5 out.ply [options]",
-      "Writes the points of a file in another format. Fields keep their names and "
-      "types.\nReads pcd ply csv txt vtk vtp vtu vts vtkhdf las npy npz h5 nc bgeo, "
-      "snapshots of Gadget and others\n(uvol --list-formats). Writes pcd ply vtp "
-      "vtkhdf csv npz. - is standard input or output.");
+      "Write the points of a file in another format, with the names and types of "
+      "their fields.\n"
+      "Input: pcd ply csv txt vtk vtp vtu vts vtkhdf las npy npz h5 nc bgeo, "
+      "snapshots of Gadget and others\n"
+      "(uvol --list-formats). Output: pcd ply vtp vtkhdf csv npz. - is standard "
+      "input or output.");
   options.file("in", input);
   options.file("out", output);
   options.group("Input");

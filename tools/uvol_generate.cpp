@@ -203,10 +203,10 @@ run(int argc, char** argv)
   Arguments arguments;
   std::string first, second;
   std::string purpose =
-      "Generates scattered samples of an analytic field or of a "
-      "volume (nrrd nhdr vti mha mhd).\nOf a mesh (ply vtp vtkhdf "
-      "obj off stl) it generates points spread evenly.\n\nFields, with "
-      "isovalues that show them:";
+      "Generate scattered samples of an analytic field, a volume (nrrd nhdr vti mha "
+      "mhd)\n"
+      "or a mesh (ply vtp vtkhdf obj off stl; evenly spread).\n\n"
+      "Fields and isovalues:";
   for (const auto& field : pcl_uvol::analyticFields()) {
     purpose += std::string("\n  ") + field.name + ": " + field.description + ", -iso ";
     for (std::size_t i = 0; i < field.isovalues.size(); ++i) {

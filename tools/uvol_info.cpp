@@ -373,8 +373,8 @@ run(int argc, char** argv, uvol_tools::SeriesStep* /*step*/)
   Options options(
       "uvol_info",
       "in.pcd [more.pcd...] [options]",
-      "Summarises files of samples (pcd ply csv txt vtk vtp vtu vts h5, Gadget) "
-      "or volumes (nrrd nhdr vti mha mhd).");
+      "Summarise files of samples (pcd ply csv txt vtk vtp vtu vts h5, Gadget) or "
+      "volumes (nrrd nhdr vti mha mhd).");
   options.files("in", arguments.inputs);
   options.group("Input");
   options.text(

@@ -68,11 +68,12 @@ struct Job {
   Options options{
       "uvol_isosurface",
       "in.pcd out.ply -iso v[,v...] [options]",
-      "Extracts the isosurface of a scalar field given at scattered points: oriented "
-      "points, or with -mesh\na closed triangle mesh. Reads pcd ply csv txt vtk vtp "
-      "vtu "
-      "vts h5 nc, snapshots of Gadget and others\n(uvol --list-formats). Writes points "
-      "as pcd ply vtp vtkhdf csv, meshes as ply vtp vtkhdf obj off stl."};
+      "Extract the isosurface of scattered samples as oriented points, or as a "
+      "closed triangle mesh (-mesh).\n"
+      "Input: pcd ply csv txt vtk vtp vtu vts h5 nc, snapshots of Gadget and others "
+      "(uvol --list-formats).\n"
+      "Output: points as pcd ply vtp vtkhdf csv, meshes as ply vtp vtkhdf obj off "
+      "stl."};
   uvol_tools::ProgressBar bar;
   Report report;
   Facts facts;

@@ -204,15 +204,16 @@ run(int argc, char** argv, pcl_uvol::Communicator& communicator)
   Options options(
       tool,
       "in.pvtp|in.vtp...|in.pcd out.pvtp -iso v[,v...] [options]",
-      "Extracts the isosurface of a scalar field given at scattered points by many "
-      "processes, for example\nmpirun -np 8 uvol_isosurface_mpi in.pcd out.pvtp -iso "
-      "0.5. The isopoints are those of uvol_isosurface.\nEach process reads a part of "
-      "one file (pcd ply csv txt), or of the pieces of a pvtp or of several "
-      "files.\nEach "
-      "process writes a vtp of the pvtp. The first one writes pcd ply vtp "
-      "csv.\nNormals "
-      "are those of the fits, else along the edges. -threads is per process, 1 if "
-      "absent.");
+      "Extract the isosurface of scattered samples by many processes. The isopoints "
+      "are those of\n"
+      "uvol_isosurface. For example: mpirun -np 8 uvol_isosurface_mpi in.pcd "
+      "out.pvtp -iso 0.5.\n"
+      "Input: one file (pcd ply csv txt), a pvtp, or several files; each process "
+      "reads a part.\n"
+      "Output: a pvtp with a vtp of each process, or pcd ply vtp csv by the first "
+      "process.\n"
+      "Normals: from the fits, else along the edges. Threads: 1 per process "
+      "(-threads).");
   declare(options, arguments);
   if (!options.parse(argc, argv))
     return 0;

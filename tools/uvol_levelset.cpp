@@ -96,9 +96,11 @@ run(int argc, char** argv)
   Options options(
       "uvol_levelset",
       "in.pcd out.ply -iso v [options]",
-      "Smooths a noisy or unevenly sampled scalar field near an isosurface by a level "
-      "set on the samples.\nWrites the field phi: about the distance to the surface, "
-      "positive where values are higher,\nin the space that -scale stretches.");
+      "Smooth a noisy or unevenly sampled scalar field near an isosurface by a level "
+      "set on the samples.\n"
+      "Output: the field phi, about the distance to the surface in the space that "
+      "-scale stretches,\n"
+      "positive where values are higher.");
   uvol_tools::PointJob job(options, "A level set");
   declare(options, job, arguments);
   if (!options.parse(argc, argv))

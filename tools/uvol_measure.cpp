@@ -443,12 +443,12 @@ run(int argc, char** argv, const uvol_tools::SeriesStep* step, MeasureSeries& se
   Options options(
       "uvol_measure",
       "surface-or-samples [out.csv] [options]",
-      "Measures a mesh (ply vtp vtkhdf obj off stl), points with normals, or with -iso "
-      "the isosurfaces of samples.\nReports area, volume, centroid, axes, genus, "
-      "integrals of fields on the surface and inside, and the samples inside.\nWrites "
-      "a "
-      "table as csv pcd ply vtp, a row per isovalue. Points have no genus and no "
-      "integrals inside.");
+      "Measure a mesh (ply vtp vtkhdf obj off stl), points with normals, or "
+      "isosurfaces of samples (-iso).\n"
+      "Report: area, volume, centroid, axes, genus, integrals of fields on the "
+      "surface and inside, and the\n"
+      "samples inside (points: no genus, no integrals inside). Output: csv pcd ply "
+      "vtp, a row per isovalue.");
   declare(options, arguments);
   if (!options.parse(argc, argv))
     return 0;

@@ -66,9 +66,9 @@ run(int argc, char** argv)
   uvol_tools::Options options(
       "uvol_normals",
       "in.ply out.ply [options]",
-      "Estimates normals of a surface given as points, from the principal components "
-      "of the "
-      "nearest neighbours.\nNormals that the file has orient the new ones.");
+      "Estimate normals of a surface given as points, from the principal components "
+      "of the nearest\n"
+      "neighbours. Normals in the file orient the new ones.");
   uvol_tools::PointJob job(options, "Estimating normals");
   job.declareInput();
   options.group("Normals");

@@ -253,11 +253,12 @@ run(int argc, char** argv, uvol_tools::SeriesStep* step)
   Options options(
       "uvol_probe",
       "in.csv out.csv -points file|-line ...|-plane ...|-grid n [options]",
-      "Interpolates a field between scattered points, with its standard error. The "
-      "field support classifies\neach value: 1 samples all around, 2 gap, 3 border, 5 "
-      "underdetermined, 6 no finite position,\n7 outside the data (nan). Writes pcd "
-      "ply "
-      "vtp csv, and planes and grids also as vti vts nrrd mha.");
+      "Interpolate a field between scattered points, with its standard error. The "
+      "field support is\n"
+      "1 samples all around, 2 gap, 3 border, 5 underdetermined, 6 no finite "
+      "position,\n"
+      "7 outside the data (nan). Output: pcd ply vtp csv, and planes and grids also "
+      "as vti vts nrrd mha.");
   declare(options, arguments);
   uvol_tools::declareSeries(options);
   if (!options.parse(argc, argv))

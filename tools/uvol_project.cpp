@@ -102,9 +102,10 @@ run(int argc, char** argv)
   Arguments arguments;
   Options options("uvol_project",
                   "in.csv out.ply -attributes a,b,c [options]",
-                  "Projects points of many dimensions into space, so that their "
-                  "clusters lie apart.\nThe coordinates of the output are those of the "
-                  "projection; its field label tells the clusters.");
+                  "Project points of many dimensions into space so that their "
+                  "clusters are separate.\n"
+                  "Output: points at the projected coordinates, with the field label "
+                  "of their clusters.");
   declare(options, arguments);
   if (!options.parse(argc, argv))
     return 0;

@@ -97,9 +97,9 @@ struct Job {
   Arguments arguments;
   Options options{"uvol_raytrace",
                   "scene.txt|in.ply out.png|.svg|.pdf [options]",
-                  "Draws a scene (.txt, .scene), or one surface given as points or "
-                  "splats, by ray tracing: shadows,\nmirrors and glass. Options take "
-                  "the place of what the scene says."};
+                  "Draw a scene (.txt, .scene), or a surface of points or splats, by "
+                  "ray tracing: shadows,\n"
+                  "mirrors and glass. Options override the scene."};
   Report report;
   uvol_tools::ProgressBar bar;
 

@@ -44,9 +44,9 @@ struct Job {
   uvol_tools::Options options{
       "uvol_render",
       "in.ply out.png|.svg|.pdf|.html [options]",
-      "Draws a surface given as points with normals: lit, smooth and without holes; as "
-      "a\n"
-      "picture, or as a web page in one file that turns in any browser."};
+      "Draw a surface given as points with normals, lit, smooth and without holes: "
+      "as an image or as\n"
+      "a one-file web page that rotates in any browser."};
   bool is_page = false;
   Report report;
   uvol_tools::MemoryGuard memory{"Drawing"};

@@ -71,9 +71,9 @@ run(int argc, char** argv)
   uvol_tools::Options options(
       "uvol_splats",
       "in.ply out.ply [options]",
-      "Covers a surface given as points with discs that have fields of normals, for "
-      "uvol_raytrace.\nThe input's normals are used; where it has none they are "
-      "estimated.");
+      "Cover a surface given as points with discs that have fields of normals, for "
+      "uvol_raytrace.\n"
+      "Normals are those of the input; missing ones are estimated.");
   uvol_tools::PointJob job(options, "Making splats");
   options.group("Splats");
   splat_options.declare(options);

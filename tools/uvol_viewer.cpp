@@ -95,7 +95,7 @@ run(int argc, char** argv)
   uvol_tools::Options options(
       "uvol_viewer",
       "in.ply [options]",
-      "Shows a surface given as points in a window, or with -field the isosurfaces of\n"
+      "Show a surface given as points in a window, or with -field the isosurfaces of\n"
       "samples, with a slider for the isovalue. In the window:\n" +
           uvol_tools::describeKeys());
   declare(options, arguments);

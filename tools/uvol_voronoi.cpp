@@ -61,8 +61,8 @@ declare(Options& options, Arguments& arguments)
                   arguments.card,
                   0,
                   1000,
-                  "which of several graphics cards draws them, from 0, with -backend "
-                  "egl (default the first that can)");
+                  "zero-based index of the graphics card, with -backend egl (default: "
+                  "the first that can draw)");
   options.number("inner-radius",
                  arguments.inner_radius,
                  1.0,
@@ -146,9 +146,9 @@ run(int argc, char** argv)
   Options options(
       "uvol_voronoi",
       "in.ply out.vti [options]",
-      "Finds the nearest point to every cell of a grid: the discrete Voronoi "
-      "diagram.\nThe arrays are site, the index of a point in the nearest "
-      "cell that holds any, and distance, between the centres of the cells.");
+      "Find the nearest point to every grid cell: the discrete Voronoi diagram.\n"
+      "Output: site (index of a point in the nearest occupied cell) and distance "
+      "(between cell centres).");
   declare(options, arguments);
   if (!options.parse(argc, argv))
     return 0;

@@ -41,7 +41,7 @@ TEST(Uvol, ListsTheToolsWithWhatTheyDo)
         EXPECT_THAT(result.out, HasSubstr("\n  " + name.substr(5) + " ")) << name;
       }
     }
-  EXPECT_THAT(result.out, HasSubstr("Summarises files of samples"));
+  EXPECT_THAT(result.out, HasSubstr("Summarise files of samples"));
   EXPECT_EQ("", result.err);
 }
 
@@ -161,7 +161,7 @@ TEST(Manual, ExplainsEveryOption)
       ++options;
     }
   EXPECT_GT(options, 50);
-  EXPECT_THAT(page.str(), HasSubstr(".SH DESCRIPTION\nExtracts the isosurface"));
+  EXPECT_THAT(page.str(), HasSubstr(".SH DESCRIPTION\nExtract the isosurface"));
 }
 
 } // namespace test_uvol

@@ -62,8 +62,8 @@ parseMap(const std::string& text)
       !pcl_uvol::parseNumber(parts[1], map.latitude) ||
       !(std::abs(map.longitude) <= 360.0) || !(std::abs(map.latitude) < 90.0))
     throw UsageError(
-        "-map takes auto, or longitude (-360 to 360) and latitude (between -90 and 90) "
-        "in degrees, and m or km behind them, as in -map -71.5,41,km, not " +
+        "-map takes auto, or longitude (-360 to 360) and latitude (between -90 and "
+        "90) in degrees, then m or km, as in -71.5,41,km, not " +
         pcl_uvol::quoteText(text) + ".");
   return map;
 }
@@ -94,8 +94,8 @@ InputOptions::declare(Options& options)
   options.text("xyz",
                "x,y,z",
                xyz_,
-               "columns of a text file that hold the coordinates, also of -points, by "
-               "names or numbers from 0 (default: by usual names)");
+               "coordinate columns of a text file, also of -points: names or "
+               "zero-based numbers (default: by usual names)");
   options
       .text("map",
             "auto|lon,lat",

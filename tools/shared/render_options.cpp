@@ -62,12 +62,12 @@ RenderOptions::declareView(Options& options)
               "what draws; auto: OpenGL on a GPU where there is one, else the CPU")
       .rare();
   options
-      .integer("device",
-               card_,
-               0,
-               1000,
-               "which of several graphics cards draws, from 0 (default the first that "
-               "can)")
+      .integer(
+          "device",
+          card_,
+          0,
+          1000,
+          "zero-based index of the graphics card (default: the first that can draw)")
       .rare();
 }
 
@@ -105,7 +105,7 @@ RenderOptions::declarePasses(Options& options)
                  s.ambient_occlusion,
                  0.0,
                  1.0,
-                 "darken pits and creases: what walls around take of the light");
+                 "ambient occlusion: how much pits and creases are darkened");
   options.choice("smoothing",
                  {"none", "box", "gaussian", "alleviated"},
                  smoothing_,

@@ -351,11 +351,10 @@ void
 declareSeries(Options& options)
 {
   options
-      .series(
-          "snapshots",
-          "first:last:step",
-          "of names with a place for a number, as in snap_{:04d}.h5 out_{:04d}.vtp; "
-          "{t} is the time that a snapshot names (default: all files there are)")
+      .series("snapshots",
+              "first:last:step",
+              "numbers in names such as snap_{:04d}.h5 out_{:04d}.vtp; {t} is the time "
+              "in a snapshot (default: all files that exist)")
       .rare();
   options.series("keep-going", "", "pass over files that fail").rare();
 }

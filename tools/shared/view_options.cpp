@@ -65,10 +65,7 @@ ViewOptions::declareScene(Options& options, SizeOf size)
   options.flag("parallel", is_parallel_, "no perspective: parallel lines stay parallel")
       .rare();
   options.number("zoom", zoom_, 0.01, 1e4, "enlarge the middle of the picture").rare();
-  options
-      .flag("culling",
-            culls_,
-            "leave out what looks away from the eye, which closed surfaces do not need")
+  options.flag("culling", culls_, "omit back faces, which closed surfaces do not need")
       .rare();
   if (size == SizeOf::Picture)
     size_.declareSize(options);

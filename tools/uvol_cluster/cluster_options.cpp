@@ -25,8 +25,8 @@ ClusterOptions::declare(Options& options)
                   min_size,
                   2,
                   std::numeric_limits<std::uint32_t>::max(),
-                  "fewer points are no cluster (default: the larger one of 10 and the "
-                  "square root of their number)");
+                  "fewest points of a cluster (default: the larger of 10 and the "
+                  "square root of the number of points)");
   options.number("cut",
                  cut,
                  std::numeric_limits<double>::min(),

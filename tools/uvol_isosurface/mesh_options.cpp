@@ -47,16 +47,16 @@ MeshOptions::declare(Options& options)
   options
       .choice("periodic-mesh",
               periodic_mesh_,
-              "with -mesh and -periodic: cut it at the faces of the box, or weld it: "
-              "rims in opposite faces get the same vertices, and a field image_of "
-              "names those that are one")
+              "with -mesh and -periodic: cut the mesh at the faces of the box, or "
+              "weld it: opposite rims match, and the field image_of names equal "
+              "vertices")
       .rare();
   options.flag(
       "measure",
       is_measured_,
-      "tell area, volume and integrals of fields, with -mesh also of the samples "
-      "inside, as uvol_measure does; points get their share of the area and the number "
-      "of their piece as fields");
+      "report area, volume and integrals of fields as uvol_measure does, with -mesh "
+      "also of the samples inside; points get their share of the area and piece as "
+      "fields");
   options
       .flag("check",
             is_checked_,

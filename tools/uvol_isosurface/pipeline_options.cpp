@@ -53,9 +53,9 @@ PipelineOptions::declare(Options& options)
   options
       .choice("normals",
               parameters.normals,
-              "of the fits, by principal components of the isopoints, or along the "
-              "edges where no fit serves; auto: by what the samples carry, pca with "
-              "linear interpolation")
+              "normals from the fits, from principal components of the isopoints, or "
+              "along the edges where no fit exists; auto: chosen from the sampling, "
+              "pca with linear interpolation")
       .rare();
   options.integer("k", k_, 2, 1000, "isopoints that a normal by pca is fitted to")
       .rare();
@@ -73,17 +73,17 @@ PipelineOptions::declare(Options& options)
   options
       .flag("fill-gaps",
             parameters.fill_gaps,
-            "predict samples between lines or sheets of samples by kriging, up to the "
-            "range of the variogram and half a gap outside of the convex hull of all "
-            "samples, and extract from both; with -scale auto unless it is given")
+            "fill gaps between lines or sheets of samples by kriging, up to the "
+            "variogram range and half a gap beyond the convex hull (-scale is auto "
+            "unless given)")
       .rare();
   options.integer(
       "validate",
       parameters.validation.folds,
       2,
       1000,
-      "hold-out test: leave out each of n parts of the samples, and ask on which side "
-      "they lie of what the others give (n + 1 times the work)");
+      "n-fold cross-validation: report how many held-out samples the surface "
+      "classifies correctly (n + 1 times the run time)");
   options
       .text("validate-by",
             "random|blocks|FIELD",

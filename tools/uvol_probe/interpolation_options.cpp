@@ -33,9 +33,9 @@ InterpolationOptions::declare(Options& options)
   options.choice(
       "model",
       parameters_.model,
-      "the field between its samples: blended local polynomials; Sibson's or "
-      "Laplace's natural neighbours; kriging; sums of SPH kernels; the "
-      "nearest sample; inverse distances; auto: the best at samples left out");
+      "blended local polynomials; nearest sample; inverse distances; Sibson's or "
+      "Laplace's natural neighbours; kriging; sums of SPH kernels; auto: the best in "
+      "cross-validation");
   options.flag("extrapolate",
                parameters_.extrapolate,
                "give values outside of the data as well, where they are nan else");
@@ -102,8 +102,8 @@ InterpolationOptions::declare(Options& options)
                   folds_,
                   2,
                   1000,
-                  "leave out one of so many parts of the samples after the other, and "
-                  "tell how far values from the others are off");
+                  "n-fold cross-validation: report the errors of values at held-out "
+                  "samples");
   options
       .text("validate-by",
             "random|blocks|FIELD",

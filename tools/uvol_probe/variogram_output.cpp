@@ -106,13 +106,11 @@ void
 VariogramOutput::declare(Options& options)
 {
   options
-      .output(
-          "variogram-csv",
-          "out.csv",
-          table_,
-          "with kriging: write the variogram of the first field and its model, from "
-          "all pairs of 600 samples drawn (or of all, if fewer) and those of each with "
-          "its 32 nearest, in all directions and along each axis")
+      .output("variogram-csv",
+              "out.csv",
+              table_,
+              "with kriging: write the variogram of the first field and its model, in "
+              "all directions and along each axis")
       .check(pcl_uvol::checkTablePath)
       .rare();
   options

@@ -66,9 +66,9 @@ describeKeys()
   std::string text = "left drag: turn   middle drag: move   wheel, right drag: zoom\n";
   for (const PassKey& key : pass_keys)
     text += std::string(1, key.key) + "  " + key.help + " on or off\n";
-  return text + "click: what a point holds   drop a file: open it\n"
+  return text + "click: values of a point   drop a file: open it\n"
                 "f  turn about the point under the mouse\n"
-                "k  cut away what lies in front of that, or show it again\n"
+                "k  cut away everything in front of that point, or show it\n"
                 "c  colour by the next field\n"
                 "m  mesh of the isosurface instead of its points, or back\n"
                 "+ -  next isovalue (or drag the slider)\n"
@@ -78,7 +78,7 @@ describeKeys()
                 "0.3\n"
                 "x y z  from the right, the front and above (X Y Z: the other sides)\n"
                 "r  whole surface in view\n"
-                "s  save a picture   S  one that rays draw   e  save the surface\n"
+                "s  save a picture   S  ray-traced   e  save the surface\n"
                 "p  print the camera as options of uvol_render\n"
                 "h  show or hide the keys\n"
                 "q  quit";

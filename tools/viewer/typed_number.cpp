@@ -36,7 +36,7 @@ TypedNumber::press(char key)
   is_begun_ = false;
   double number = 0.0;
   if (!pcl_uvol::parseNumber(text_, number))
-    throw pcl_uvol::InvalidArgument(pcl_uvol::quoteText(text_) + " is no number.");
+    throw pcl_uvol::InvalidArgument(pcl_uvol::quoteText(text_) + " is not a number.");
   return number;
 }
 
