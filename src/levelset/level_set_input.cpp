@@ -72,6 +72,15 @@ measureShape(const CloudView& cloud,
 } // namespace
 
 InitialFunction
+moveShape(InitialFunction initial, const Eigen::Array3d& origin)
+{
+  initial.first -= origin;
+  if (initial.kind == InitialKind::Box)
+    initial.second -= origin;
+  return initial;
+}
+
+InitialFunction
 turnShape(const InitialFunction& initial, const detail::StretchAxes& axes)
 {
   InitialFunction turned = initial;

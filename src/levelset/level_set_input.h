@@ -31,6 +31,10 @@ struct LevelSetInput {
 InitialFunction
 turnShape(const InitialFunction& initial, const detail::StretchAxes& axes);
 
+/** \brief The same function where coordinates count from an origin. */
+InitialFunction
+moveShape(InitialFunction initial, const Eigen::Array3d& origin);
+
 /** \throws InvalidArgument for parameters out of range */
 void
 checkParameters(const LevelSetParameters& parameters);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/extract_surface.h"
 
+#include "levelset/level_set_input.h"
 #include "neighbors/sampling.h"
 #include "pipeline/extract_points.h"
 #include "pipeline/isopoint_choice.h"
@@ -73,7 +74,10 @@ extractLevelSets(const PipelineInput& input,
   evolution.setIndices(input.use);
   evolution.setNumberOfThreads(threads);
   evolution.setProgressCallback(report.progress);
-  evolution.setParameters(input.parameters.level_set);
+  LevelSetParameters level_set = input.parameters.level_set;
+  level_set.initial =
+      moveShape(level_set.initial, Eigen::Array3d(input.samples->origin.data()));
+  evolution.setParameters(level_set);
   evolution.setScalarField(parameters.field);
   evolution.setScale(parameters.scale);
   evolution.setOutside(parameters.outside);

@@ -5,6 +5,7 @@
 #include "common/sample_checks.h"
 #include "common/scalar_field.h"
 #include "common/stretch_axes.h"
+#include "levelset/level_set_input.h"
 #include "neighbors/samples_in_box.h"
 #include "pipeline/pipeline_input.h"
 #include "pipeline/weak_support.h"
@@ -14,21 +15,6 @@
 #include <utility>
 
 namespace pcl_uvol {
-
-namespace {
-
-/** The same shape where coordinates count from an origin. */
-InitialFunction
-shift(InitialFunction initial, const std::array<double, 3>& origin)
-{
-  const Eigen::Array3d by(origin[0], origin[1], origin[2]);
-  initial.first -= by;
-  if (initial.kind == InitialKind::Box)
-    initial.second -= by;
-  return initial;
-}
-
-} // namespace
 
 void
 checkRequest(const LevelSetRequest& request)
@@ -74,7 +60,7 @@ runLevelSet(const std::shared_ptr<const Dataset>& samples,
     input = imaged;
   }
   LevelSetParameters parameters = taken;
-  parameters.initial = shift(taken.initial, input->origin);
+  parameters.initial = moveShape(taken.initial, Eigen::Array3d(input->origin.data()));
 
   LevelSetEvolution<pcl::PCLPointCloud2> evolution;
   evolution.setInputCloud({input, &input->cloud});

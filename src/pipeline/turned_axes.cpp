@@ -17,7 +17,9 @@ TurnedAxes::TurnedAxes(PipelineInput& input)
   input.samples = turned;
   input.parameters.rotation.setZero();
   LevelSetParameters& level_set = input.parameters.level_set;
-  level_set.initial = turnShape(level_set.initial, axes_);
+  const Eigen::Array3d origin(turned->origin.data()); // that it counts from none of
+  level_set.initial =
+      moveShape(turnShape(moveShape(level_set.initial, origin), axes_), -origin);
 }
 
 void

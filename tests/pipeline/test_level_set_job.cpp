@@ -3,6 +3,7 @@
 // warned of in one place, and phi is that of LevelSetEvolution.
 #include "noisy_ball.h"
 #include "pipeline/level_set_job.h"
+#include "run_pipeline.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/levelset/level_set_evolution.h>
 
@@ -88,6 +89,30 @@ TEST(LevelSetJob, ShiftsShapesToTheOrigin)
   here->origin = {};
   request.level_set.initial = InitialFunction::sphere({0.0, 0.0, 0.0}, 0.8);
   EXPECT_EQ(there, readColumn(run(here, request).samples, "phi"));
+}
+
+/** The isosurface pipeline smooths by a list of its own, in turned axes as well. */
+TEST(LevelSetJob, ShapesOfThePipelineCountFromTheOriginToo)
+{
+  const auto samples = makeSamples(), here = std::make_shared<Dataset>(*samples);
+  here->origin = {};
+  const auto smooth = [](const std::shared_ptr<Dataset>& from,
+                         const Eigen::Array3d& center,
+                         const Eigen::Array3d& rotation) {
+    IsosurfacePipelineParameters parameters;
+    parameters.isosurface.isovalues = {0.0};
+    parameters.smooth = true;
+    parameters.level_set = makeRequest().level_set;
+    parameters.level_set.initial = InitialFunction::sphere(center, 0.8);
+    parameters.rotation = rotation;
+    const auto found = runPipeline(from, parameters);
+    EXPECT_GT(found.surface.cloud.width, 1000u);
+    return found.surface.cloud.data;
+  };
+  for (const Eigen::Array3d& rotation :
+       {Eigen::Array3d(0.0, 0.0, 0.0), Eigen::Array3d(30.0, 40.0, 0.0)})
+    EXPECT_TRUE(smooth(here, {0.0, 0.0, 0.0}, rotation) ==
+                smooth(samples, {1000.0, 0.0, -5.0}, rotation));
 }
 
 TEST(LevelSetJob, FindsTheScale)
