@@ -159,9 +159,10 @@ def write_tables():
         lines.append(f"| {what} | " + " | ".join(figures) + " |")
     machines = sorted({load(name)["machine"] for name, *_ in ROWS.values()})
     dates = sorted({load(name)["date"] for name, *_ in ROWS.values()})
-    lines += ["", "Times on quiet machines A, B and C (see the measurements), two virtual cores each. The ratio says how many times as long the other "
-              f"library takes. The last run ({dates[-1]}, {'; '.join(machines)}) was on a busy machine. Its load is the number of programs that waited for "
-              "the cores. This lengthens all times, and disturbs ratios of programs with several threads.", "",
+    lines += ["", "Times are those of quiet [machines](../tests/benchmarks/README.md#machines) with two virtual cores. The ratio says how many times as "
+              "long the other library takes. The last column is a check that the ratios still hold: the last run "
+              f"({dates[-1]}, {'; '.join(machines)}) was on a busy machine, whose load is the number of programs that waited for the cores. Load "
+              "lengthens all times, and disturbs ratios of programs with several threads.", "",
               "| task | pcl_uvol | compared with | ratio | machine | ratio of the last run |", "|---|---|---|---|---|---|"]
     lines += ["| " + " | ".join(row) + " |" for row in list_times()]
     lines += ["", "The commands, in this order. Those of Google Benchmark (`bench_...`) also need `--benchmark_format=json`:", ""]
