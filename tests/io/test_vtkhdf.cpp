@@ -32,6 +32,91 @@ tableOf(const std::string& path, const std::string& name)
   return numbers;
 }
 
+/** "<f8": order, kind and bytes of a number as NumPy calls them; "S5": a text padded by
+ * zeros. */
+std::string
+nameType(hid_t type)
+{
+  const std::string size = std::to_string(H5Tget_size(type));
+  if (H5Tget_class(type) == H5T_STRING)
+    return (H5Tget_strpad(type) == H5T_STR_NULLPAD ? "S" : "?") + size;
+  const bool is_float = H5Tget_class(type) == H5T_FLOAT;
+  return (H5Tget_order(type) == H5T_ORDER_LE ? "<" : ">") +
+         std::string(is_float                            ? "f"
+                     : H5Tget_sign(type) == H5T_SGN_NONE ? "u"
+                                                         : "i") +
+         size;
+}
+
+/** " <f8 4x3" */
+std::string
+describeTable(hid_t type, hid_t space)
+{
+  hsize_t sizes[H5S_MAX_RANK];
+  const int rank = H5Sget_simple_extent_dims(space, sizes, nullptr);
+  std::string text = ' ' + nameType(type);
+  for (int i = 0; i < rank; ++i)
+    text += (i > 0 ? "x" : " ") + std::to_string(sizes[i]);
+  H5Sclose(space);
+  H5Tclose(type);
+  return text;
+}
+
+/** A line per group, table and attribute. */
+std::string
+describeFile(const std::string& path)
+{
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  std::vector<std::string> names;
+  H5Lvisit(
+      file,
+      H5_INDEX_NAME,
+      H5_ITER_INC,
+      [](hid_t, const char* name, const auto*, void* list) {
+        static_cast<std::vector<std::string>*>(list)->emplace_back(name);
+        return herr_t(0);
+      },
+      &names);
+  std::string text;
+  for (const std::string& name : names) {
+    const hid_t object = H5Oopen(file, name.c_str(), H5P_DEFAULT);
+    text += name;
+    if (H5Iget_type(object) == H5I_DATASET)
+      text += describeTable(H5Dget_type(object), H5Dget_space(object));
+    text += '\n';
+    H5Aiterate2(
+        object,
+        H5_INDEX_NAME,
+        H5_ITER_INC,
+        nullptr,
+        [](hid_t owner, const char* attribute, const H5A_info_t*, void* lines) {
+          const hid_t id = H5Aopen(owner, attribute, H5P_DEFAULT);
+          const std::string type = describeTable(H5Aget_type(id), H5Aget_space(id));
+          *static_cast<std::string*>(lines) += std::string(" ") + attribute + type;
+          if (type[1] == 'S') {
+            std::string value(H5Aget_storage_size(id), ' ');
+            const hid_t stored = H5Aget_type(id);
+            H5Aread(id, stored, value.data());
+            H5Tclose(stored);
+            *static_cast<std::string*>(lines) += ' ' + value;
+          }
+          else {
+            std::int64_t values[2];
+            H5Aread(id, H5T_NATIVE_INT64, values);
+            *static_cast<std::string*>(lines) +=
+                ' ' + std::to_string(values[0]) + ',' + std::to_string(values[1]);
+          }
+          *static_cast<std::string*>(lines) += '\n';
+          H5Aclose(id);
+          return herr_t(0);
+        },
+        &text);
+    H5Oclose(object);
+  }
+  H5Fclose(file);
+  return text;
+}
+
 using Numbers = std::vector<double>;
 
 class VtkHdf : public testing::Test {
@@ -184,6 +269,83 @@ TEST_F(VtkHdf, NormalsAreAVectorOfVtk)
     const double expected = valueAt(dataset, axis, 3), actual = valueAt(back, axis, 3);
     EXPECT_TRUE(expected == actual || (std::isnan(expected) && std::isnan(actual)));
   }
+}
+
+/** The list is that of files which were written without the library of HDF5. */
+TEST_F(VtkHdf, WritesTheSameTablesTypesAndAttributes)
+{
+  Dataset dataset = makeDataset({{"normal_x", Type::FLOAT32},
+                                 {"normal_y", Type::FLOAT32},
+                                 {"normal_z", Type::FLOAT32},
+                                 {"\xc3\xa4", Type::INT8},
+                                 {"b", Type::UINT16},
+                                 {"c", Type::FLOAT64},
+                                 {"d", Type::UINT64},
+                                 {"e", Type::INT32, 2}},
+                                4,
+                                2);
+  saveMesh(path_, dataset, {{0, 1, 2}, {1, 2, 3}});
+  EXPECT_EQ(describeFile(path_),
+            "VTKHDF\n"
+            " Type S8 PolyData\n"
+            " Version <i8 2 2,0\n"
+            "VTKHDF/Lines\n"
+            "VTKHDF/Lines/Connectivity <i8 0\n"
+            "VTKHDF/Lines/NumberOfCells <i8 1\n"
+            "VTKHDF/Lines/NumberOfConnectivityIds <i8 1\n"
+            "VTKHDF/Lines/Offsets <i8 1\n"
+            "VTKHDF/NumberOfPoints <i8 1\n"
+            "VTKHDF/PointData\n"
+            "VTKHDF/PointData/Normals <f4 4x3\n"
+            " Attribute S7 Normals\n"
+            "VTKHDF/PointData/b <u2 4\n"
+            "VTKHDF/PointData/c <f8 4\n"
+            "VTKHDF/PointData/d <u8 4\n"
+            "VTKHDF/PointData/e <i4 4x2\n"
+            "VTKHDF/PointData/\xc3\xa4 <i1 4\n"
+            "VTKHDF/Points <f4 4x3\n"
+            "VTKHDF/Polygons\n"
+            "VTKHDF/Polygons/Connectivity <i8 6\n"
+            "VTKHDF/Polygons/NumberOfCells <i8 1\n"
+            "VTKHDF/Polygons/NumberOfConnectivityIds <i8 1\n"
+            "VTKHDF/Polygons/Offsets <i8 3\n"
+            "VTKHDF/Strips\n"
+            "VTKHDF/Strips/Connectivity <i8 0\n"
+            "VTKHDF/Strips/NumberOfCells <i8 1\n"
+            "VTKHDF/Strips/NumberOfConnectivityIds <i8 1\n"
+            "VTKHDF/Strips/Offsets <i8 1\n"
+            "VTKHDF/Vertices\n"
+            "VTKHDF/Vertices/Connectivity <i8 0\n"
+            "VTKHDF/Vertices/NumberOfCells <i8 1\n"
+            "VTKHDF/Vertices/NumberOfConnectivityIds <i8 1\n"
+            "VTKHDF/Vertices/Offsets <i8 1\n");
+  EXPECT_EQ((Numbers{0, 1, 2, 1, 2, 3}),
+            tableOf(path_, "/VTKHDF/Polygons/Connectivity"));
+  const Numbers points = tableOf(path_, "/VTKHDF/Points"),
+                wide = tableOf(path_, "/VTKHDF/PointData/c");
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(valueAt(dataset, "y", i), points[3 * i + 1]);
+    EXPECT_EQ(valueAt(dataset, "c", i), wide[i]);
+  }
+  dataset.double_coordinates = true;
+  saveDataset(path_, dataset);
+  EXPECT_NE(std::string::npos, describeFile(path_).find("VTKHDF/Points <f8 4x3\n"));
+}
+
+/** More tables than the header of a group holds. */
+TEST_F(VtkHdf, ManyFieldsComeBack)
+{
+  std::vector<FieldSpec> specs;
+  for (int i = 0; i < 300; ++i)
+    specs.push_back({"field" + std::to_string(i), Type::INT32});
+  const Dataset dataset = makeDataset(specs, 2, 2);
+  saveDataset(path_, dataset);
+  const std::string bytes = readFile(path_);
+  const Dataset back = loadDataset(path_);
+  EXPECT_EQ(dataset.cloud.fields.size(), back.cloud.fields.size());
+  EXPECT_EQ(valueAt(dataset, "field299", 1), valueAt(back, "field299", 1));
+  saveDataset(path_, dataset);
+  EXPECT_TRUE(bytes == readFile(path_));
 }
 
 TEST_F(VtkHdf, NamesMayBeAny)

@@ -4,8 +4,7 @@
 #include "io/columns.h"
 #include "io/formats.h"
 #include "io/hdf5_names.h"
-#include "io/hdf5_writer.h"
-#include "io/little_endian.h"
+#include "io_vtk/hdf5_writer.h"
 
 #include <pcl/PCLPointField.h>
 
@@ -28,8 +27,11 @@ addCounts(Hdf5Writer& writer,
                   1,
                   [make](std::uint64_t first, std::uint64_t count) {
                     std::string bytes;
-                    for (std::uint64_t row = first; row < first + count; ++row)
-                      appendLittle(bytes, make(row));
+                    for (std::uint64_t row = first; row < first + count; ++row) {
+                      const std::uint64_t number = make(row);
+                      bytes.append(reinterpret_cast<const char*>(&number),
+                                   sizeof(number));
+                    }
                     return bytes;
                   });
 }
@@ -86,7 +88,7 @@ writeVtkHdf(const std::string& file,
   const std::uint64_t points =
       std::uint64_t{dataset.cloud.width} * dataset.cloud.height;
   const std::string group = vtkhdf_group;
-  Hdf5Writer writer(path);
+  Hdf5Writer writer(file, path);
   const auto add_array = [&](const std::string& name, const Fields& fields) {
     const auto columns = findColumns(dataset, fields);
     writer.addTable(name,
@@ -128,7 +130,7 @@ writeVtkHdf(const std::string& file,
   const std::vector<std::string> names = makeNames(others);
   for (std::size_t i = 0; i < others.size(); ++i)
     add_array(joinNames(data, names[i]), {others[i]});
-  writer.save(file);
+  writer.close();
 }
 
 } // namespace io
