@@ -346,9 +346,10 @@ private:
     for (std::size_t i = first + 1; i + 1 < contents_.size(); ++i) {
       findSeparator(textAt(i));
       const std::size_t cells = cellsAt(i).size();
-      const auto has_numbers = [&](std::size_t row) {
+      const auto has_numbers = [&](std::size_t row) { // with either decimal sign
         return cellsAt(row).size() == cells &&
-               !hasTextOnly(cellsAt(row), head_.decimal);
+               (!hasTextOnly(cellsAt(row), '.') ||
+                (head_.shape.separator != ',' && !hasTextOnly(cellsAt(row), ',')));
       };
       const bool is_above =
           has_numbers(i + 1) || // or above units, which are above a row
@@ -371,7 +372,8 @@ private:
     double ignored = 0.0;
     for (std::size_t i = 0; i < count; ++i)
       if (!isMissing(units[i]) && units[i] != "-" &&
-          !parseCell(numbers[i], head_.decimal, ignored))
+          !parseCell(numbers[i], head_.decimal, ignored) &&
+          !isBelow(numbers[i], head_.decimal, ignored))
         return false;
     return true;
   }

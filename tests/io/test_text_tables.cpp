@@ -114,6 +114,10 @@ TEST(TextTables, HeadsAsPeopleWriteThem)
       {"#x,y,z,f,hole\n0.5,2,3,4,A-1\n", {}},
       {"x;y;z;f\n0,5;2;3;4\n", {"decimal_commas"}},
       {"x\ty\tz\tf\n0,5\t2\t3\t4,0\n", {"decimal_commas"}},
+      {"My survey 2020\nx;y;z;f\n0,5;2,0;3,0;4,0\n",
+       {"skipped_titles", "decimal_commas"}},
+      {"x;y;z;f;cu\nm;m;m;K;%\n0,5;2;3;4;<0,25\n",
+       {"decimal_commas", "skipped_units", "below_detection"}},
       {"TITLE=\"t\"\nVARIABLES = \"x\"\n\"y\"\n\"z\", \"f\"\nZONE N=1, E=1, F=FEPOINT\n"
        "0.5 2 3 4\n1 1 1\n",
        {"first_zone"},
