@@ -15,10 +15,10 @@ print(f"{len(surface.points)} isopoints at {radii.mean():.4f} from the centre, e
 
 queries = np.array([[0.1, 0.2, 0.3], [0.3, 0.0, 0.0]])
 values, errors = uvol.Interpolator(samples, field="radius")(queries)
-for place, value, error in zip(queries, values.ravel(), errors.ravel()):
-    print(f"radius at {place}: {value:.6f} +- {error:.1e}, truly {np.linalg.norm(place):.6f}")
+for position, value, error in zip(queries, values.ravel(), errors.ravel()):
+    print(f"radius at {position}: {value:.6f} +- {error:.1e}, true {np.linalg.norm(position):.6f}")
 
 mesh = surface.mesh()
-figures = mesh.measure()
-print(f"{len(mesh.triangles)} triangles, volume {figures.volume.value:.5f} +- {figures.volume.error:.1e} "
-      f"(ball {np.pi / 6:.5f}), genus {figures.genus}")
+measures = mesh.measure()
+print(f"{len(mesh.triangles)} triangles, volume {measures.volume.value:.5f} +- {measures.volume.error:.1e} "
+      f"(ball {np.pi / 6:.5f}), genus {measures.genus}")
