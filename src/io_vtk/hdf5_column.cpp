@@ -413,6 +413,7 @@ hdf5Type(std::uint8_t datatype)
   case Type::INT8:
     return H5T_NATIVE_INT8;
   case Type::UINT8:
+  case Type::BOOL:
     return H5T_NATIVE_UINT8;
   case Type::INT16:
     return H5T_NATIVE_INT16;

@@ -51,7 +51,7 @@ Hdf5Writer::Target::makeDriver()
   driver.name = "pcl_uvol";
   driver.maxaddr = static_cast<haddr_t>(INT64_MAX);
   driver.fc_degree = H5F_CLOSE_STRONG;
-  driver.fapl_size = sizeof(Target*);
+  driver.fapl_size = sizeof(void*); // where a Target is
   driver.open = [](const char*, unsigned, hid_t access, haddr_t) -> H5FD_t* {
     const void* const given = H5Pget_driver_info(access);
     if (given == nullptr)

@@ -281,7 +281,8 @@ TEST_F(VtkHdf, WritesTheSameTablesTypesAndAttributes)
                                  {"b", Type::UINT16},
                                  {"c", Type::FLOAT64},
                                  {"d", Type::UINT64},
-                                 {"e", Type::INT32, 2}},
+                                 {"e", Type::INT32, 2},
+                                 {"f", Type::BOOL}},
                                 4,
                                 2);
   saveMesh(path_, dataset, {{0, 1, 2}, {1, 2, 3}});
@@ -302,6 +303,7 @@ TEST_F(VtkHdf, WritesTheSameTablesTypesAndAttributes)
             "VTKHDF/PointData/c <f8 4\n"
             "VTKHDF/PointData/d <u8 4\n"
             "VTKHDF/PointData/e <i4 4x2\n"
+            "VTKHDF/PointData/f <u1 4\n"
             "VTKHDF/PointData/\xc3\xa4 <i1 4\n"
             "VTKHDF/Points <f4 4x3\n"
             "VTKHDF/Polygons\n"
