@@ -8,6 +8,7 @@
 #include "shared/sampling_fact.h"
 #include "shared/scale_option.h"
 
+#include <cmath>
 #include <optional>
 #include <string>
 
@@ -55,9 +56,9 @@ describeValidation(const pcl_uvol::ValidationScore& score,
     return Fact::Numbers{static_cast<double>(value)};
   };
   FactText near;
-  near.precision(2);
   near << "; "
-       << 100.0 * static_cast<double>(score.covered) / static_cast<double>(score.tested)
+       << std::lround(100.0 * static_cast<double>(score.covered) /
+                      static_cast<double>(score.tested))
        << " % of the held-out samples are near the surface";
   return {
       Fact("held-out side" + of_isovalue,
