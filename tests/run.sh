@@ -20,7 +20,7 @@ case $asked in
     ;;
 esac
 
-bash tools/build.sh all gzip clang-format valgrind \
+bash tools/build.sh all gzip clang-format codespell valgrind \
   libosmesa6 libegl1 libegl-mesa0 libgl1-mesa-dri xvfb \
   python3-pandas python3-xarray python3-h5py python3-vtk9 python3-pip python3-venv python3-setuptools python3-wheel \
   doxygen python3-jsonschema python3-nbclient python3-nbformat python3-ipykernel

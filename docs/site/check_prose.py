@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Counts what is hard to read on pages and in messages: sentences of more than 30 words (28 in messages), paragraphs of
-more than 90 words, and words that only this project used. CONTRIBUTING.md has the style guide.
+"""Counts what is hard to read on pages, in messages, in texts of programs, in comments of public headers and in
+docstrings: sentences of more than 30 words (28 in messages), paragraphs of more than 90 words, and words that only this
+project used. CONTRIBUTING.md has the style guide.
 
 usage: check_prose.py REPOSITORY [--write]
 
 README, entry pages, tutorials and messages must have none. Other files have a number in docs/site/prose.txt that may
 only fall; --write writes the present numbers there. Exit code 1 if there are more, and the findings are printed."""
+import ast
 import pathlib
 import re
 import sys
@@ -19,7 +21,7 @@ PRIVATE = {
     r"\bwhat (lies|is left|they|it) ": "name the thing",
     r"\b(stands?|stood) (in|at|beside|behind|for)\b": "is in, represents",
     r"\bg(oes|o) (without|with|by)\b(?! the)": "cannot be combined with, requires, is based on",
-    r"\b(is|are) no (number|file|list|table|label|text|whole numbers|slips|times|clusters?|coordinates|steps)\b|\b(is|are) none\b":
+    r"\b(is|are) no (number|file|list|table|label|text|whole numbers|slips|times|clusters?|coordinates|steps)\b|\b(is|are) (?-i:none)\b":
         "is not a",
     r"\bsurer\b|\bsure of\b": "more certain, smaller standard error",
     r"\bstray(s|ing)?\b": "outlier",
@@ -109,12 +111,48 @@ def judge_messages(text):
             yield text.count("\n", 0, row.start()) + 1, f"{row.group(1)}: {found}"
 
 
+def judge_header(text):
+    """Of comments that Doxygen reads; each tag begins a text."""
+    for comment in re.finditer(r"/\*\*(.*?)\*/|///<?((?:[^\n]|\n\s*///<?)*)", text, re.DOTALL):
+        words = re.sub(r"\n\s*(\*|///<?)(?=\s)", "\n", comment.group(1) or comment.group(2) or "")
+        for block in re.split(r"\n\s*\n|\n\s*(?=[\\-])|\\\w+", words):
+            for found in judge(plain(block), MOST_WORDS):
+                yield text.count("\n", 0, comment.start()) + 1, found
+
+
+def judge_docstrings(text):
+    """Of modules, classes and functions; examples are left out."""
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, (ast.Module, ast.ClassDef, ast.FunctionDef)):
+            words = re.sub(r"(?m)^\s*(>>>|\.\.\.).*\n(?:\s*[^\s>].*\n)*", "", (ast.get_docstring(node) or "") + "\n")
+            for block in re.split(r"\n\s*\n|\n(?=\S)", words):
+                for found in judge(plain(block), MOST_WORDS):
+                    yield getattr(node, "lineno", 1), found
+
+
+def judge_program(text):
+    """Of string literals of several words."""
+    for row in re.finditer(r'(?:"(?:[^"\\\n]|\\.)*"\s*)+', text):
+        words = "".join(re.findall(r'"((?:[^"\\\n]|\\.)*)"', row.group(0))).replace("\\n", "\n")
+        for found in judge(plain(words), MOST_IN_MESSAGES) if count_words(words) > 3 else ():
+            yield text.count("\n", 0, row.start()) + 1, found
+
+
+def list_sources(root):
+    """Path and judge of each file."""
+    for name in ("README.md", "python/README.md", "CONTRIBUTING.md", "tests/benchmarks/README.md"):
+        yield root / name, judge_page
+    for folder, pattern, judge_file in (("docs", "*.md", judge_page), ("include", "*.h", judge_header),
+                                        ("python/pcl_uvol", "*.py", judge_docstrings), ("tools", "*.cpp", judge_program)):
+        for path in sorted((root / folder).rglob(pattern)):
+            yield path, judge_file
+    for name in ("warning_texts.cpp", "error_texts.cpp"):
+        yield root / "src/common" / name, judge_messages
+
+
 def main():
     root = pathlib.Path(sys.argv[1])
-    pages = [root / "README.md", root / "python/README.md", root / "CONTRIBUTING.md", *sorted((root / "docs").rglob("*.md"))]
-    tables = [root / "src/common" / name for name in ("warning_texts.cpp", "error_texts.cpp")]
-    findings = {str(path.relative_to(root)): list((judge_page if path in pages else judge_messages)(path.read_text()))
-                for path in pages + tables}
+    findings = {str(path.relative_to(root)): list(judge_file(path.read_text())) for path, judge_file in list_sources(root)}
     kept = root / "docs/site/prose.txt"
     if "--write" in sys.argv:
         kept.write_text("".join(f"{name} {len(found)}\n" for name, found in findings.items()

@@ -74,7 +74,8 @@ def read(path, xyz=("", "", ""), particles="", cells=False, progress=None, map=N
 
 
 def _state_of(path):
-    """What differs once a file is written again; None of what is no file, such as "file.h5:/group"."""
+    """Size and time of a file, which differ once it is written again; None if the path is not that of a file, such as
+    "file.h5:/group"."""
     try:
         found = os.stat(path)
     except OSError:

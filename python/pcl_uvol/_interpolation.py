@@ -167,9 +167,8 @@ class Interpolator:
     @property
     def variograms(self):
         """dict: of kriging, by field: kind, nugget, sill (the partial sill: without the
-        nugget) and range, and what they were fitted to: half the mean squares of
-        differences (values) of so many pairs of samples, by distance. Empty with other
-        models.
+        nugget) and range. They are fitted to half the mean squares of differences (values),
+        by distance, with the number of pairs of samples. Empty with other models.
 
         Examples
         --------

@@ -33,7 +33,7 @@ class Figure(NamedTuple):
 
 
 class FieldFigures(NamedTuple):
-    """A field on a surface, or in what it encloses.
+    """A field on a surface, or inside of it.
 
     Examples
     --------

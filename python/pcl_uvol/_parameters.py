@@ -93,14 +93,14 @@ def propose(names, name):
 
 
 def check_keywords(name, known, options):
-    """Tell of an unknown keyword the one that was meant."""
+    """Refuse an unknown keyword, and name the one that was meant."""
     for option in options:
         if option not in known:
             raise TypeError(f"{name}() has no keyword {option!r}{propose(known, option)}.")
 
 
 def with_proposals(function):
-    """The function, which tells of an unknown keyword the one that was meant."""
+    """The function, which names the keyword that was meant for an unknown one."""
     @functools.wraps(function)
     def call(*values, **options):
         known, needed = keywords_of(call)
@@ -141,8 +141,8 @@ def mapping(value, what, of="parameters"):
 
 
 class Stretch:
-    """The space that distances are measured in: factors along axes, and the angles of these; with no factors, the
-    word of what they are found from."""
+    """The space that distances are measured in: factors along axes, and the angles of these; or the word of the
+    choice of factors."""
 
     def __init__(self, scale, rotate=None):
         self.word = scale if isinstance(scale, str) else None
@@ -162,7 +162,7 @@ class Stretch:
                              "nine numbers of a matrix, without rotate.")
 
     def resolve(self, dataset, field=None, threads=0):
-        """The factors for samples; "auto" goes by a field, and without one by their spacing."""
+        """The factors for samples; "auto" finds them from a field, and without one from the spacing."""
         if self.word == "auto" and field is not None:
             return _core.scale_of_field(dataset, field, self.rotation, threads)
         if self.word is not None:
@@ -182,8 +182,8 @@ def count(value, what):
 
 
 class Parameters(dict):
-    """Parameters of a stage by the library's names, with the defaults of those that were not given; None stands for
-    what the stage chooses. Printed it has a line for each."""
+    """Parameters of a stage by the library's names, with the defaults of those that were not given; None is for the
+    choice of the stage. Printed it has a line for each."""
 
     def __str__(self):
         return "\n".join(self._lines(""))

@@ -116,8 +116,8 @@ class Points(Bridges):
 
     @property
     def labels(self):
-        """dict of str to list of str: the names that the numbers of columns of names stand
-        for, by column, in alphabetical order; -1 stands for none.
+        """dict of str to list of str: for each column of names, the names of the numbers
+        from 0, in alphabetical order; -1 is a missing name.
 
         Examples
         --------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the library tells of a run, as Python's warnings."""
+"""The warnings of a run as those of Python."""
 
 import os
 import sys

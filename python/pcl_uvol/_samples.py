@@ -329,7 +329,7 @@ class Samples(Drawable, Points):
         return sides
 
     def _with_images(self, sides, scale, threads, progress):
-        """What these are in a box that repeats: samples with images beyond its faces."""
+        """These samples with images beyond the faces of a periodic box."""
         with listening(progress) as listener:
             imaged = _core.ImagedSamples(self._dataset, sides, scale, _parameters.count(threads, "threads"), listener)
         _report.tell(imaged.report["warnings"])

@@ -11,7 +11,7 @@ from ._samples import Samples, as_samples
 
 
 def _run(function, samples, parameters, threads, progress, *more):
-    """Run a stage; its last results are the report, whose warnings are told, and all parameters."""
+    """Run a stage; its last results are the report, whose warnings are raised, and all parameters."""
     with listening(progress) as listener:
         results = function(samples._dataset, *more, _parameters.to_json(parameters),
                            _parameters.count(threads, "threads"), listener)
