@@ -30,7 +30,7 @@ TEST(RankReport, AddsCountsAndKeepsTheLongestTimes)
     const decltype(together.counts) counts{{"samples", 33},
                                            {"far_points", 4},
                                            {"largest_samples", 12},
-                                           {"largest_strays", 4},
+                                           {"largest_far_points", 4},
                                            {"largest_none", 0}};
     EXPECT_EQ(counts, together.counts);
     const decltype(together.milliseconds) milliseconds{{"read", 3.0}};

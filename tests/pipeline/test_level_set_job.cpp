@@ -106,7 +106,7 @@ TEST(LevelSetJob, ShapesOfThePipelineCountFromTheOriginToo)
     parameters.level_set.initial = InitialFunction::sphere(center, 0.8);
     parameters.rotation = rotation;
     const auto found = runPipeline(from, parameters);
-    EXPECT_GT(found.surface.cloud.width, 1000u);
+    EXPECT_GT(found.surface.cloud.width, 500u);
     return found.surface.cloud.data;
   };
   for (const Eigen::Array3d& rotation :

@@ -26,7 +26,7 @@ AttributeOptions::declare(Options& options)
                "a,b,...",
                text_,
                "fields that span the space: rho, vel[1], |vel|, |vx,vy,vz|, log10(u)");
-  options.flag("position", has_position_, "x, y and z are attributes as well");
+  options.flag("position", has_position_, "add x, y and z to the attributes");
   options.flag("raw",
                is_standardized_,
                "take attributes in their units, not in standard deviations",

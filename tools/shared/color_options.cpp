@@ -17,7 +17,7 @@ ColorOptions::declareMapping(Options& options)
                "colours of values, backwards with _r behind the name (default viridis, "
                "OkabeIto for up to eight isovalues or whole numbers, tab10 for ten)");
   options.numbers("range", "low,high", 2, range_, "values at the ends of the colours");
-  options.flag("log", is_logarithmic_, "colours by the logarithm of the values");
+  options.flag("log", is_logarithmic_, "colour by the logarithm of the values");
 }
 
 void
@@ -28,8 +28,7 @@ ColorOptions::declare(Options& options)
       .text("label",
             "text",
             label_,
-            "what the values are called beside their colours, such as 'T (K)' "
-            "(default: the field)")
+            "title of the colour bar, such as 'T (K)' (default: the field)")
       .rare();
 }
 

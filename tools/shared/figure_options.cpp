@@ -11,19 +11,23 @@ void
 FigureOptions::declare(Options& options)
 {
   options.group("Figure", true);
-  options.flag("ticks", figure_.has_ticks, "axes with values, and grid lines behind");
-  options.flag("box", figure_.has_box, "the box around the surface");
-  options.flag("triad", figure_.has_triad, "the directions of x, y and z");
-  options.flag("scale-bar",
-               figure_.has_scale_bar,
-               "a bar of a round length, as lengths in the middle of the surface look");
+  options.flag("ticks", figure_.has_ticks, "draw axes with values and grid lines");
+  options.flag("box", figure_.has_box, "draw a box around the surface");
+  options.flag("triad", figure_.has_triad, "draw the directions of x, y and z");
+  options.flag(
+      "scale-bar",
+      figure_.has_scale_bar,
+      "draw a scale bar of a round length, valid at the centre of the surface");
+  options.text("unit",
+               "text",
+               figure_.unit,
+               "unit of the coordinates, such as km, for axes and scale bar");
+  options.text("title", "text", figure_.title, "title above the image");
   options.text(
-      "unit", "text", figure_.unit, "of the coordinates, such as km, for the above");
-  options.text("title", "text", figure_.title, "a line above the picture");
-  options.text("views",
-               "side,...",
-               views_text_,
-               "several views in one picture, as iso,top,front, instead of -view");
+      "views",
+      "side,...",
+      views_text_,
+      "draw several views in one image, such as iso,top,front, instead of -view");
 }
 
 const std::vector<std::string>&

@@ -26,7 +26,7 @@ IsosurfaceOptions::declareSamples(Options& options,
                       "by a step, 0.01:1:5log five of them from 0.01 to 1");
   options.choice("outside",
                  parameters.isosurface.outside,
-                 "the side normals point to: where values are lower or higher");
+                 "side that normals point to: lower or higher values");
 }
 
 void

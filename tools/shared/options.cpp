@@ -117,7 +117,7 @@ Options::Options(std::string tool, std::string synopsis, std::string purpose)
     , purpose_(std::move(purpose))
 {
   integer("threads", threads_, 0, 4096, "number of threads, 0 for all cores");
-  flag("v", verbose_, "tell all counts and the time of every step");
+  flag("v", verbose_, "list all counts and the time of every step");
   flag("json", json_, "print the report as one JSON object");
   group("Options");
 }

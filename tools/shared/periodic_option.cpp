@@ -15,8 +15,8 @@ PeriodicOption::declare(Options& options)
       .text("periodic",
             "x,y,z|header",
             text_,
-            "sides of the box that the samples repeat in, 0 along an axis for none, "
-            "or those that the file names: neighbours are seen across its faces")
+            "sides of the periodic box, in units of length (0: axis not periodic), or "
+            "header: those that the file names")
       .rare();
 }
 

@@ -90,7 +90,7 @@ InputOptions::declare(Options& options)
   options.text("where",
                "expr",
                where_,
-               "use only the points for which it holds: \"experiment=1 && T>4\"");
+               "condition that points must meet: \"experiment=1 && T>4\"");
   options.text("xyz",
                "x,y,z",
                xyz_,
@@ -107,14 +107,14 @@ InputOptions::declare(Options& options)
       .text("particles",
             "kind",
             particles_,
-            "of a snapshot: gas, dm, disk, bulge, stars, bh, or a number (default: "
-            "gas, else the first kind there is)")
+            "particle type of a snapshot: gas, dm, disk, bulge, stars, bh, or a number "
+            "(default: gas, otherwise the first type)")
       .rare();
   options
       .flag("cells",
             cells_,
-            "of a file of VTK, Exodus, EnSight or OpenFOAM: take the centres of cells "
-            "with their data instead of points")
+            "use cell centres with cell data instead of points (VTK, Exodus, EnSight, "
+            "OpenFOAM)")
       .rare();
 }
 

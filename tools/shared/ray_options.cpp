@@ -15,9 +15,12 @@ namespace uvol_tools {
 void
 RayOptions::declareRays(Options& options)
 {
-  options.integer(
-      "depth", settings_.depth, 0, 10000, "reflections and refractions in a row");
-  options.flag("no-shadows", shadows_, "light goes through everything", false);
+  options.integer("depth",
+                  settings_.depth,
+                  0,
+                  10000,
+                  "largest number of reflections and refractions of a ray");
+  options.flag("no-shadows", shadows_, "draw no shadows", false);
   options
       .integer("light-samples",
                settings_.light_samples,
@@ -29,21 +32,27 @@ RayOptions::declareRays(Options& options)
                   settings_.occlusion_samples,
                   0,
                   4096,
-                  "rays that find how much ambient light reaches a place; 0: all");
+                  "rays per point for ambient occlusion; 0: off");
   options
-      .number("occlusion-distance",
-              settings_.occlusion_distance,
-              0.0,
-              1e30,
-              "what is farther does not count; 0: a fifth of the scene's radius")
+      .number(
+          "occlusion-distance",
+          settings_.occlusion_distance,
+          0.0,
+          1e30,
+          "largest distance of occluders, a length; 0: a fifth of the scene's radius")
       .rare();
 }
 
 void
 RayOptions::declareSurface(Options& options)
 {
-  options.number("reflect", reflectivity_, 0.0, 1.0, "part of the light mirrored");
-  options.number("transparent", transparency_, 0.0, 1.0, "part let through");
+  options.number(
+      "reflect", reflectivity_, 0.0, 1.0, "proportion of light that is reflected");
+  options.number("transparent",
+                 transparency_,
+                 0.0,
+                 1.0,
+                 "proportion of light that passes through");
   options
       .number("index", refractive_index_, 0.01, 100.0, "refractive index of the inside")
       .rare();

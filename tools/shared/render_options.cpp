@@ -59,7 +59,7 @@ RenderOptions::declareView(Options& options)
       .choice("backend",
               {"auto", "cpu", "osmesa", "egl"},
               backend_,
-              "what draws; auto: OpenGL on a GPU where there is one, else the CPU")
+              "renderer; auto: OpenGL if there is a GPU, otherwise the CPU")
       .rare();
   options
       .integer(
@@ -80,8 +80,8 @@ RenderOptions::declareOpacity(Options& options)
       "a,...",
       0,
       opacities_,
-      "of the isovalues, the lowest first, or one for all: 0 is clear, 1 is "
-      "opaque");
+      "opacity per isovalue, lowest first, or one for all (0 transparent, 1 "
+      "opaque)");
 }
 
 void
@@ -91,27 +91,32 @@ RenderOptions::declarePasses(Options& options)
   ImageSpaceSettings& s = settings_;
   constexpr int most = 1000000;
   options.group("Drawing points", true);
-  options.flag(
-      "no-footprints", s.footprints, "every point is one pixel, however near", false);
-  options.integer("fill", s.background_fill, 0, most, "background fills at most");
-  options.integer("occluded", s.occluded_fill, 0, most, "occluded fills at most");
-  options.number(
-      "layers", s.layer_distance, 1e-9, 1.0, "least distance of two layers in depth");
+  options.flag("no-footprints", s.footprints, "draw every point as one pixel", false);
+  options.integer(
+      "fill", s.background_fill, 0, most, "largest number of background fills");
+  options.integer(
+      "occluded", s.occluded_fill, 0, most, "largest number of occluded fills");
+  options.number("layers",
+                 s.layer_distance,
+                 1e-9,
+                 1.0,
+                 "smallest difference in depth of two layers");
   options.flag("no-shading",
                s.shading,
-               "colours of -color without light, else a white surface, for lines alone",
+               "draw colours without light (without -color: white, for line drawings)",
                false);
-  options.number("occlusion",
-                 s.ambient_occlusion,
-                 0.0,
-                 1.0,
-                 "ambient occlusion: how much pits and creases are darkened");
+  options.number(
+      "occlusion",
+      s.ambient_occlusion,
+      0.0,
+      1.0,
+      "strength of ambient occlusion, which darkens pits and creases (0: off)");
   options.choice("smoothing",
                  {"none", "box", "gaussian", "alleviated"},
                  smoothing_,
                  "filter of colours");
   options.integer(
-      "smoothings", s.smoothing_iterations, 0, 6, "times that it is applied");
+      "smoothings", s.smoothing_iterations, 0, 6, "number of smoothing passes");
   options.group("Picture");
   options.flag("silhouettes", s.silhouettes, "draw silhouettes").rare();
   options.group("Lines", true);
@@ -124,7 +129,7 @@ RenderOptions::declarePasses(Options& options)
                   s.silhouette_thickness,
                   1,
                   7,
-                  "of silhouettes: t for 2 t - 1 pixels");
+                  "thickness t of silhouettes: 2 t - 1 pixels");
   options.group("Picture");
   options.flag("features", s.feature_lines, "draw feature lines").rare();
   options.group("Lines", true);
@@ -133,7 +138,8 @@ RenderOptions::declarePasses(Options& options)
                  1e-9,
                  largest,
                  "least 1 - cos between normals");
-  options.numbers("line-color", "r,g,b", 3, line_color_, "of lines (default black)");
+  options.numbers(
+      "line-color", "r,g,b", 3, line_color_, "colour of lines, 0 to 1 (default black)");
   options.flag("no-antialias", s.anti_aliasing, "leave borders jagged", false);
   options.number("antialias-threshold",
                  s.anti_aliasing_threshold,

@@ -38,9 +38,8 @@ ScaleOption::declare(Options& options,
                  "strike,dip,plunge",
                  3,
                  angles_,
-                 "degrees that turn the axes of -scale: the second one is a line "
-                 "that plunges in a plane that dips, the third one the plane's "
-                 "normal")
+                 "strike, dip and plunge of the axes of -scale, in degrees: the "
+                 "second axis plunges in a plane that dips, the third is its normal")
         .rare();
 }
 

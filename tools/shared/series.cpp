@@ -356,7 +356,7 @@ declareSeries(Options& options)
               "numbers in names such as snap_{:04d}.h5 out_{:04d}.vtp; {t} is the time "
               "in a snapshot (default: all files that exist)")
       .rare();
-  options.series("keep-going", "", "pass over files that fail").rare();
+  options.series("keep-going", "", "continue with the next file if one fails").rare();
 }
 
 int

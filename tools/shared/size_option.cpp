@@ -84,13 +84,14 @@ void
 SizeOption::declareDpi(Options& options)
 {
   options
-      .number("dpi",
-              paper_.dots_per_inch,
-              1.0,
-              1e5,
-              "dots per inch that the picture says it is printed with, in letters of 7 "
-              "points or more (default 300 where -" +
-                  name_ + " has a unit)")
+      .number(
+          "dpi",
+          paper_.dots_per_inch,
+          1.0,
+          1e5,
+          "resolution for print in dots per inch, with letters of at least 7 points "
+          "(default 300 where -" +
+              name_ + " has a unit)")
       .rare();
 }
 

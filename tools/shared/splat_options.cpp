@@ -10,14 +10,18 @@ SplatOptions::declare(Options& options)
                  parameters_.delta,
                  1e-12,
                  1.0,
-                 "largest distance of points to their splat, in parts of the longest "
-                 "side of the bounding box of all but a few far ones");
-  options.number("delta-abs", length_, 1e-30, 1e15, "the same as a length");
+                 "largest distance of a point to its splat, relative to the longest "
+                 "side of the bounding box without outliers");
+  options.number("delta-abs",
+                 length_,
+                 1e-30,
+                 1e15,
+                 "largest distance of a point to its splat as a length");
   options.number("lambda",
                  parameters_.lambda,
                  0.0,
                  1.0,
-                 "part of a splat's radius in which no other one starts");
+                 "proportion of a splat's radius in which no other splat starts");
 }
 
 pcl_uvol::SplatParameters

@@ -49,22 +49,27 @@ void
 ViewOptions::declareScene(Options& options, SizeOf size)
 {
   options.group("Picture");
-  options.choice("view", pcl_uvol::Camera::viewNames(), view_, "side to look from");
-  options.numbers("eye", "x,y,z", 3, eye_, "place of the camera, instead of -view")
+  options.choice(
+      "view", pcl_uvol::Camera::viewNames(), view_, "side that the camera looks from");
+  options.numbers("eye", "x,y,z", 3, eye_, "position of the camera, instead of -view")
       .rare();
-  options.numbers("at", "x,y,z", 3, at_, "place that it looks at (default the centre)")
+  options
+      .numbers(
+          "at", "x,y,z", 3, at_, "point that the camera looks at (default the centre)")
       .rare();
   options
       .numbers("up",
                "x,y,z",
                3,
                up_,
-               "direction that is upwards, to which -view turns (default 0,0,1)")
+               "upward direction of the image and of -view (default 0,0,1)")
       .rare();
   options.number("fov", fov_, 0.01, 179.0, "vertical field of view in degrees").rare();
-  options.flag("parallel", is_parallel_, "no perspective: parallel lines stay parallel")
+  options
+      .flag("parallel", is_parallel_, "use a parallel projection, without perspective")
       .rare();
-  options.number("zoom", zoom_, 0.01, 1e4, "enlarge the middle of the picture").rare();
+  options.number("zoom", zoom_, 0.01, 1e4, "enlargement of the image about its centre")
+      .rare();
   options.flag("culling", culls_, "omit back faces, which closed surfaces do not need")
       .rare();
   if (size == SizeOf::Picture)
@@ -85,10 +90,13 @@ ViewOptions::declareScene(Options& options, SizeOf size)
       "colour by a scalar field or an expression, log10(rho) or |grad(rho)|, by "
       "rgb or by none (default: rgb if there, else isovalue if there are several)");
   colors_.declare(options);
-  options.flag("no-bar", has_bar_, "no colour bar in the picture", false).rare();
+  options.flag("no-bar", has_bar_, "leave out the colour bar", false).rare();
   options
-      .numbers(
-          "surface-color", "r,g,b", 3, surface_color_, "of points without a colour")
+      .numbers("surface-color",
+               "r,g,b",
+               3,
+               surface_color_,
+               "colour of points without a colour, 0 to 1")
       .rare();
 }
 
@@ -100,8 +108,8 @@ ViewOptions::declareExaggeration(Options& options)
                "x,y,z",
                3,
                exaggeration_,
-               "stretch the picture along the axes, as 1,1,100; -eye and -at are "
-               "places in the data")
+               "stretch the image along the axes, such as 1,1,100; -eye and -at are "
+               "positions in the data")
       .rare();
 }
 
@@ -139,10 +147,11 @@ ViewOptions::declareLighting(Options& options)
   options.text("lights",
                "x,y,z;...",
                lights_text_,
-               "directions that light comes from: x right, y up, z to the viewer");
-  options.number("ambient", material_.ambient, 0.0, 1e3, "light from everywhere");
-  options.number("diffuse", material_.diffuse, 0.0, 1e3, "of the lights");
-  options.number("specular", material_.specular, 0.0, 1e3, "highlights");
+               "directions of the lights: x right, y up, z to the viewer");
+  options.number("ambient", material_.ambient, 0.0, 1e3, "strength of ambient light");
+  options.number(
+      "diffuse", material_.diffuse, 0.0, 1e3, "strength of diffuse reflection");
+  options.number("specular", material_.specular, 0.0, 1e3, "strength of highlights");
   options.number("shininess", material_.shininess, 0.0, 1e4, "exponent of highlights");
 }
 

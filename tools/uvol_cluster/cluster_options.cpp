@@ -20,7 +20,7 @@ ClusterOptions::declare(Options& options)
   attributes.declare(options);
   reading.declare(options);
   options.group("Clusters");
-  options.integer("k", k, 0, 1000, "nearest neighbours that tell the density");
+  options.integer("k", k, 0, 1000, "nearest neighbours for the density estimate");
   options.integer("min-size",
                   min_size,
                   2,
@@ -33,16 +33,16 @@ ClusterOptions::declare(Options& options)
                  huge,
                  "choose the clusters at that distance of attributes (default: by "
                  "persistence)");
-  options.flag("single", single, "all points may be one cluster");
+  options.flag("single", single, "allow a single cluster");
   options.group("Output");
   options.output("tree", "out.csv", tree, "write the tree of clusters")
       .check(pcl_uvol::checkTablePath);
   options.group("Input");
-  options.text("label",
-               "name",
-               label,
-               "field of the input that tells the clusters, instead of -attributes "
-               "(default: label)");
+  options.text(
+      "label",
+      "name",
+      label,
+      "field with the cluster labels, instead of -attributes (default: label)");
   options.group("Surface of a cluster");
   options.numbers("cluster", "n", 1, cluster, "choose the points of a cluster");
   options.choice(
@@ -70,7 +70,8 @@ ClusterOptions::declare(Options& options)
                  distance,
                  std::numeric_limits<double>::min(),
                  huge,
-                 "of the surface (default: just beyond the longest edge of the points' "
+                 "distance of the surface from the points (default: just beyond the "
+                 "longest edge of the points' "
                  "minimum spanning tree)");
   scale.declare(options, "distances of -surface", AutomaticScale::Spacing);
   options.group("Output");

@@ -96,15 +96,15 @@ PipelineOptions::declare(Options& options)
       .text("max-memory",
             "bytes",
             max_memory_,
-            "take no more memory, as in 1500M or 2G: samples wait on disk; for pcd, "
+            "memory limit, such as 1500M or 2G: samples are kept on disk; for pcd, "
             "ply and text that are not compressed")
       .rare();
   options
       .text("scratch",
             "folder",
             scratch_,
-            "with -max-memory: where they wait, 24 bytes each (default: beside the "
-            "output)")
+            "with -max-memory: folder of the samples on disk, 24 bytes each (default: "
+            "beside the output)")
       .rare();
   options.group("Input");
   density.declare(options);
@@ -161,10 +161,9 @@ PipelineOptions::checkCombinations(const Options& options) const
   if (options.given("max-memory") && needsAllSamples())
     throw UsageError(
         "-max-memory cannot be combined with -density, -outside-value, -periodic, "
-        "-smooth, "
-        "-where, -scale auto or spacing, -rotate, -validate, -fill-gaps, -mesh, "
-        "-measure, -neighbors voronoi or exact or derivatives as fields. They need "
-        "all samples.");
+        "-smooth, -where, -scale auto, -scale spacing or -rotate. It also excludes "
+        "-validate, -fill-gaps, -mesh, -measure, -neighbors voronoi or exact, and "
+        "derivatives as fields. They need all samples.");
   try {
     checkParameters(parameters);
   }
