@@ -160,10 +160,10 @@ PipelineOptions::checkCombinations(const Options& options) const
     throw UsageError("-scratch needs -max-memory.");
   if (options.given("max-memory") && needsAllSamples())
     throw UsageError(
-        "-max-memory cannot be combined with -density, -outside-value, -periodic, "
-        "-smooth, -where, -scale auto, -scale spacing or -rotate. It also excludes "
-        "-validate, -fill-gaps, -mesh, -measure, -neighbors voronoi or exact, and "
-        "derivatives as fields. They need all samples.");
+        "-max-memory cannot be combined with what needs all samples: -density, "
+        "-outside-value, -periodic, -smooth, -where, -scale auto, -rotate. Neither "
+        "with -validate, -fill-gaps, -mesh, -measure, -neighbors voronoi or exact, or "
+        "derivatives as fields.");
   try {
     checkParameters(parameters);
   }
