@@ -3,7 +3,6 @@
 #pragma once
 
 #include "common/records.h"
-#include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/io/dataset.h>
 
@@ -48,7 +47,7 @@ private:
 
 /** \brief The numbers of savedFields() or heldFields(); components are called name_0,
  * name_1, ... */
-PCL_UVOL_EXPORTS std::vector<Column>
+std::vector<Column>
 findColumns(const Dataset& dataset, const Fields& fields);
 
 /** \brief Replace blanks and control characters by `_`, keep the names different.
@@ -61,7 +60,7 @@ void
 appendNumber(std::string& text, const Column& column, const std::uint8_t* point);
 
 /** \brief The bytes of the columns of some points, one behind the other. */
-PCL_UVOL_EXPORTS std::string
+std::string
 packRecords(const Dataset& dataset,
             const std::vector<Column>& columns,
             std::size_t first,

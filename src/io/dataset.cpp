@@ -102,7 +102,7 @@ saveDataset(const std::string& path, const Dataset& dataset, const SaveOptions& 
     else if (ending == ".vtp")
       io::vtkLibrary().writeVtp(file, path, dataset, {});
     else if (ending == ".vtkhdf")
-      io::vtkLibrary().writeVtkHdf(file, path, dataset, {});
+      io::writeVtkHdf(file, path, dataset, {});
     else if (ending == ".npz")
       io::writeNpz(file, path, dataset);
     else

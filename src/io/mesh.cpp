@@ -90,7 +90,7 @@ saveMesh(const std::string& path,
     else if (ending == ".vtp")
       io::vtkLibrary().writeVtp(file, path, vertices, triangles);
     else if (ending == ".vtkhdf")
-      io::vtkLibrary().writeVtkHdf(file, path, vertices, triangles);
+      io::writeVtkHdf(file, path, vertices, triangles);
     else if (ending == ".obj")
       io::writeObj(file, path, vertices, triangles, options);
     else if (ending == ".off")

@@ -36,7 +36,6 @@ struct VtkLibrary {
   decltype(&io::readPieceList) readPieceList;
   decltype(&io::checkVtpFields) checkVtpFields;
   decltype(&io::writeVtp) writeVtp;
-  decltype(&io::writeVtkHdf) writeVtkHdf;
   decltype(&io::writePieceList) writePieceList;
 
   /** \brief The image of a .vti or .vtk; axes of negative spacing run downwards.

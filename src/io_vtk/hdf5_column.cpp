@@ -24,6 +24,33 @@ using Type = pcl::PCLPointField;
 /** Behind a chunk, where it is asked for. */
 constexpr std::size_t checksum_bytes = 4;
 
+hid_t
+nativeType(std::uint8_t datatype)
+{
+  switch (datatype) {
+  case Type::INT8:
+    return H5T_NATIVE_INT8;
+  case Type::UINT8:
+    return H5T_NATIVE_UINT8;
+  case Type::INT16:
+    return H5T_NATIVE_INT16;
+  case Type::UINT16:
+    return H5T_NATIVE_UINT16;
+  case Type::INT32:
+    return H5T_NATIVE_INT32;
+  case Type::UINT32:
+    return H5T_NATIVE_UINT32;
+  case Type::INT64:
+    return H5T_NATIVE_INT64;
+  case Type::UINT64:
+    return H5T_NATIVE_UINT64;
+  case Type::FLOAT32:
+    return H5T_NATIVE_FLOAT;
+  default:
+    return H5T_NATIVE_DOUBLE;
+  }
+}
+
 /** How a table lies in its file. */
 struct Storage {
   std::size_t number_bytes = 0;
@@ -64,12 +91,12 @@ describeStorage(hid_t dataset, const Hdf5Shape& shape)
   Storage storage;
   const Handle type = own(H5Dget_type(dataset)), space = own(H5Dget_space(dataset)),
                properties = own(H5Dget_create_plist(dataset));
-  const Handle turned = own(H5Tcopy(hdf5Type(shape.datatype)));
+  const Handle turned = own(H5Tcopy(nativeType(shape.datatype)));
   H5Tset_order(*turned,
                H5Tget_order(*turned) == H5T_ORDER_LE ? H5T_ORDER_BE : H5T_ORDER_LE);
   storage.number_bytes = H5Tget_size(*type);
   storage.swapped = H5Tequal(*type, *turned) > 0;
-  storage.is_plain = storage.swapped || H5Tequal(*type, hdf5Type(shape.datatype)) > 0;
+  storage.is_plain = storage.swapped || H5Tequal(*type, nativeType(shape.datatype)) > 0;
   storage.is_contiguous = H5Pget_layout(*properties) == H5D_CONTIGUOUS;
   const int rank = H5Sget_simple_extent_ndims(*space);
   const int filters = H5Pget_nfilters(*properties);
@@ -332,7 +359,7 @@ public:
     if (H5Sselect_hyperslab(
             *file_space, H5S_SELECT_SET, start, nullptr, size, nullptr) < 0 ||
         H5Dread(*dataset_,
-                hdf5Type(shape_.datatype),
+                nativeType(shape_.datatype),
                 *memory,
                 *file_space,
                 H5P_DEFAULT,
@@ -404,34 +431,6 @@ own(hid_t id)
             H5Idec_ref(*held); // of any kind
             delete held;
           }};
-}
-
-hid_t
-hdf5Type(std::uint8_t datatype)
-{
-  switch (datatype) {
-  case Type::INT8:
-    return H5T_NATIVE_INT8;
-  case Type::UINT8:
-  case Type::BOOL:
-    return H5T_NATIVE_UINT8;
-  case Type::INT16:
-    return H5T_NATIVE_INT16;
-  case Type::UINT16:
-    return H5T_NATIVE_UINT16;
-  case Type::INT32:
-    return H5T_NATIVE_INT32;
-  case Type::UINT32:
-    return H5T_NATIVE_UINT32;
-  case Type::INT64:
-    return H5T_NATIVE_INT64;
-  case Type::UINT64:
-    return H5T_NATIVE_UINT64;
-  case Type::FLOAT32:
-    return H5T_NATIVE_FLOAT;
-  default:
-    return H5T_NATIVE_DOUBLE;
-  }
 }
 
 std::uint8_t

@@ -50,10 +50,6 @@ own(hid_t id);
 std::uint8_t
 hdf5Datatype(hid_t type);
 
-/** \brief Numbers in memory of a type of pcl::PCLPointField. */
-hid_t
-hdf5Type(std::uint8_t datatype);
-
 /** \brief The numbers of a table: as they lie in the file where they can be, unpacked
  * here where deflate and shuffle packed them, else by the library, which has no defence
  * against damaged chunks.

@@ -86,6 +86,8 @@ VtkMessages::~VtkMessages()
   vtkLogger::SetStderrVerbosity(static_cast<vtkLogger::Verbosity>(verbosity_));
 }
 
+/** VTK's writers and their compressor die where they find no memory for their blocks.
+ * \throws std::bad_alloc in front of them */
 void
 checkRoomForBlocks()
 {

@@ -42,12 +42,6 @@ private:
   int verbosity_;
 };
 
-/** \brief Make sure that there is a block of memory: the writers of VTK and the library
- * of HDF5 end the program where they find none.
- * \throws std::bad_alloc */
-void
-checkRoomForBlocks();
-
 /** \brief Write what a writer was given, compressed in its binary part.
  * \param file where it is written to
  * \param path the name that errors give

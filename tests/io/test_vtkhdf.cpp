@@ -271,7 +271,7 @@ TEST_F(VtkHdf, NormalsAreAVectorOfVtk)
   }
 }
 
-/** The list is that of files which were written without the library of HDF5. */
+/** The library of HDF5 finds in a file what our writer of the format puts there. */
 TEST_F(VtkHdf, WritesTheSameTablesTypesAndAttributes)
 {
   Dataset dataset = makeDataset({{"normal_x", Type::FLOAT32},

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes files of HDF5 by the library that VTK uses.
+// Writes files of HDF5 block by block: the library opens no file that has no name yet,
+// and does not survive a lack of memory.
 #pragma once
-
-#include "io_vtk/hdf5_column.h"
 
 #include <cstdint>
 #include <functional>
-#include <memory>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -14,20 +13,14 @@ namespace pcl_uvol {
 namespace io {
 
 /** \brief Groups, tables and attributes of a new file, as versions from 1.8 on read
- * them. The same calls write the same bytes. */
+ * them. */
 class Hdf5Writer {
 public:
   /** Bytes of rows of a table, one behind the other, in the order of this machine. */
   using MakeRows = std::function<std::string(std::uint64_t first, std::uint64_t count)>;
 
-  /** \param file that is there, and is written from its start
-   * \param path the name that errors give
-   * \throws IOError, as all other functions */
-  Hdf5Writer(const std::string& file, std::string path);
-  Hdf5Writer(const Hdf5Writer&) = delete;
-  Hdf5Writer&
-  operator=(const Hdf5Writer&) = delete;
-  ~Hdf5Writer();
+  /** \param path the name that errors give */
+  explicit Hdf5Writer(std::string path);
 
   /** \brief A group within one that was added before, or within "". */
   void
@@ -35,13 +28,14 @@ public:
 
   /** \brief Numbers within a group that was added before.
    * \param datatype of pcl::PCLPointField
-   * \param components 1: a list, more: a table of so many columns */
+   * \param components 1: a list, more: a table of so many columns
+   * \param make called by save() */
   void
   addTable(const std::string& name,
            std::uint8_t datatype,
            std::uint64_t rows,
            std::uint64_t components,
-           const MakeRows& make);
+           MakeRows make);
 
   /** Attributes of something that was added before. @{ */
   void
@@ -54,29 +48,40 @@ public:
                const std::vector<std::int64_t>& numbers);
   /** @} */
 
-  /** \brief Complete the file. Without it nothing is known of what was written. */
+  /** \brief Write all of it.
+   * \throws IOError */
   void
-  close();
+  save(const std::string& file) const;
 
 private:
-  struct Target;
+  struct Object {
+    std::string name;     ///< within its group
+    std::string messages; ///< of its header, but for links and the place of numbers
+    bool is_group = false;
+    std::vector<std::size_t> members;
+    std::uint64_t rows = 0, row_bytes = 0;
+    MakeRows make;
+  };
 
-  [[noreturn]] void
-  fail() const;
-  void
-  check(herr_t result) const;
-  Handle
-  checked(hid_t id) const;
+  Object&
+  add(const std::string& name);
+  std::uint64_t
+  place(std::size_t object,
+        const std::vector<std::uint64_t>& data,
+        std::uint64_t start,
+        std::string& headers) const;
+  std::string
+  makeMessage(std::uint8_t type, const std::string& body) const;
   void
   addAttribute(const std::string& object,
                const std::string& name,
-               hid_t type,
-               hid_t space,
-               const void* value) const;
+               const std::string& type,
+               const std::string& space,
+               const std::string& value);
 
   std::string path_;
-  std::unique_ptr<Target> target_;
-  Handle driver_, names_, group_, table_, file_;
+  std::vector<Object> objects_;
+  std::map<std::string, std::size_t> known_; ///< by their whole names
 };
 
 } // namespace io

@@ -4,7 +4,8 @@
 #include "io/columns.h"
 #include "io/formats.h"
 #include "io/hdf5_names.h"
-#include "io_vtk/hdf5_writer.h"
+#include "io/hdf5_writer.h"
+#include "io/little_endian.h"
 
 #include <pcl/PCLPointField.h>
 
@@ -27,11 +28,8 @@ addCounts(Hdf5Writer& writer,
                   1,
                   [make](std::uint64_t first, std::uint64_t count) {
                     std::string bytes;
-                    for (std::uint64_t row = first; row < first + count; ++row) {
-                      const std::uint64_t number = make(row);
-                      bytes.append(reinterpret_cast<const char*>(&number),
-                                   sizeof(number));
-                    }
+                    for (std::uint64_t row = first; row < first + count; ++row)
+                      appendLittle(bytes, make(row));
                     return bytes;
                   });
 }
@@ -88,7 +86,7 @@ writeVtkHdf(const std::string& file,
   const std::uint64_t points =
       std::uint64_t{dataset.cloud.width} * dataset.cloud.height;
   const std::string group = vtkhdf_group;
-  Hdf5Writer writer(file, path);
+  Hdf5Writer writer(path);
   const auto add_array = [&](const std::string& name, const Fields& fields) {
     const auto columns = findColumns(dataset, fields);
     writer.addTable(name,
@@ -130,7 +128,7 @@ writeVtkHdf(const std::string& file,
   const std::vector<std::string> names = makeNames(others);
   for (std::size_t i = 0; i < others.size(); ++i)
     add_array(joinNames(data, names[i]), {others[i]});
-  writer.close();
+  writer.save(file);
 }
 
 } // namespace io
