@@ -29,6 +29,11 @@ constexpr double isopoint_bytes = 3.0 * sizeof(PointIso) + sizeof(IsoEdge);
 /** A sample while gaps are filled: in the trees of two kriged fields. */
 constexpr double gap_bytes = 150.0;
 
+/** Samples of an outer layer over the power 2/3 of the samples, which those at the
+ * surface of a body grow with: 7 around a cube, 12 around a splash of water, whose
+ * surface is larger. The layer itself is known once it is made. */
+constexpr double layer_samples = 12.0;
+
 /** Nodes of the lattice in gaps for each sample, about: their number shows when gaps
  * are filled, and is checked then. */
 constexpr double nodes_per_sample = 4.0;
@@ -65,9 +70,11 @@ pipelineBytes(double samples,
         imagesFactor(sidesOf(parameters), reachFor(parameters).spacings, samples);
     bytes += point_step * samples;
   }
-  if ((parameters.rotation != 0.0).any()) // a turned copy
+  if (parameters.outside_value) { // a copy with the layer
+    samples += layer_samples * std::pow(samples, 2.0 / 3.0);
     bytes += point_step * samples;
-  if (parameters.outside_value) // a copy with further samples
+  }
+  if ((parameters.rotation != 0.0).any()) // a turned copy
     bytes += point_step * samples;
   if (parameters.isosurface.neighbors == NeighborSource::Exact)
     bytes += ExactNeighbors::bytesPerSample() * samples;

@@ -160,7 +160,7 @@ def write_tables():
     machines = sorted({load(name)["machine"] for name, *_ in ROWS.values()})
     dates = sorted({load(name)["date"] for name, *_ in ROWS.values()})
     lines += ["", "Times are those of quiet [machines](../tests/benchmarks/README.md#machines) with two virtual cores. The ratio says how many times as "
-              "long the other library takes. The last column is a check that the ratios still hold: the last run "
+              "long the other library takes. The last column shows whether the ratios still hold. The last run "
               f"({dates[-1]}, {'; '.join(machines)}) was on a busy machine, whose load is the number of programs that waited for the cores. Load "
               "lengthens all times, and disturbs ratios of programs with several threads.", "",
               "| task | pcl_uvol | compared with | ratio | machine | ratio of the last run |", "|---|---|---|---|---|---|"]

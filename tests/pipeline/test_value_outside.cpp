@@ -5,6 +5,8 @@
 #include "pipeline/run_pipeline.h"
 #include <pcl_uvol/mesh/surface_mesh.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>
+#include <pcl_uvol/pipeline/isosurface_result.h>
 
 #include <gtest/gtest.h>
 
@@ -109,15 +111,25 @@ TEST(ValueOutside, FitsOscillateAtTheJump)
   EXPECT_FALSE(mesh.triangles.empty());
 }
 
-TEST(ValueOutside, FoldsOfAHoldOutTestHaveOneLayer)
+/** Folds are parts of the closed samples, and get no layer of their own. */
+TEST(ValueOutside, HoldOutTestsAreThoseOfTheClosedSamples)
 {
+  const auto samples = makeLiquid(), closed = std::make_shared<Dataset>(*samples);
+  pcl_uvol::Report report;
+  addOuterLayer(*closed, nullptr, "density", 0.0, 1, report);
   IsosurfacePipelineParameters parameters = makeParameters();
-  const auto plain = runPipeline(makeLiquid(), parameters);
   parameters.validation.folds = 3;
-  const auto tested = runPipeline(makeLiquid(), parameters);
-  ASSERT_EQ(1u, tested.validation.size());
-  EXPECT_EQ(plain.report.getCount("outer_samples"),
-            tested.report.getCount("outer_samples"));
+  const auto found = runPipeline(samples, parameters).validation;
+  parameters.outside_value.reset();
+  parameters.isosurface.interpolation = Interpolation::Linear;
+  const auto expected = runPipeline(closed, parameters).validation;
+  ASSERT_EQ(1u, found.size());
+  ASSERT_EQ(1u, expected.size());
+  EXPECT_EQ(closed->cloud.width, found[0].tested);
+  EXPECT_EQ(expected[0].tested, found[0].tested);
+  EXPECT_EQ(expected[0].covered, found[0].covered);
+  EXPECT_EQ(expected[0].side.predicted, found[0].side.predicted);
+  EXPECT_EQ(expected[0].field.predicted, found[0].field.predicted);
 }
 
 TEST(ValueOutside, WhatGoesWithWhat)

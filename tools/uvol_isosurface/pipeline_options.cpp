@@ -160,10 +160,10 @@ PipelineOptions::checkCombinations(const Options& options) const
     throw UsageError("-scratch needs -max-memory.");
   if (options.given("max-memory") && needsAllSamples())
     throw UsageError(
-        "-max-memory cannot be combined with what needs all samples: -density, "
-        "-outside-value, -periodic, -smooth, -where, -scale auto, -rotate. Neither "
-        "with -validate, -fill-gaps, -mesh, -measure, -neighbors voronoi or exact, or "
-        "derivatives as fields.");
+        "-max-memory cannot be combined with -density, -outside-value, -periodic, "
+        "-smooth, -where, -scale auto or spacing, -rotate, -validate, -fill-gaps, "
+        "-mesh, -measure, -neighbors voronoi or exact, or derivatives as fields. They "
+        "need all samples.");
   try {
     checkParameters(parameters);
   }
