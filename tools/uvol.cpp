@@ -6,10 +6,13 @@
 #include "io/folder.h"
 #include "io/formats.h"
 #include "shared/options.h"
+#include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -127,7 +130,8 @@ become(const std::string& name, char** arguments)
   std::string title = prefix + name;
   arguments[0] = title.data();
   execv(tool.c_str(), arguments);
-  throw std::runtime_error(tool + " could not be started.");
+  throw pcl_uvol::Exception("tool_not_started",
+                            {{"path", tool}, {"reason", std::strerror(errno)}});
 }
 
 int

@@ -171,8 +171,7 @@ writeCluster(const Options& options,
     return;
   }
   if (!dataset.has_coordinates)
-    throw pcl_uvol::InvalidArgument("The input has no coordinates to draw a surface "
-                                    "in: uvol_project gives it some.");
+    throw pcl_uvol::InvalidArgument("no_coordinates_to_draw", {});
   Facts of_scale;
   const auto stretch = arguments.scale.resolve(
       pcl_uvol::viewOf(dataset.cloud), "", options.threads(), report, of_scale);

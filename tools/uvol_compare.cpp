@@ -35,14 +35,16 @@ loadSurface(const std::string& path, Report& report)
   else
     surface.vertices = uvol_tools::loadPoints(path, report);
   if (surface.vertices.cloud.width == 0)
-    throw pcl_uvol::InvalidArgument("'" + path + "' holds no points.");
+    throw pcl_uvol::InvalidArgument("no_points", {{"path", path}});
   try {
     pcl_uvol::detail::checkTriangles(pcl_uvol::viewOf(surface.vertices.cloud),
                                      surface.triangles);
   }
   catch (const pcl_uvol::InvalidArgument& error) {
-    throw pcl_uvol::IOError("Cannot use '" + path + "': " +
-                            error.asMessage().text(pcl_uvol::ParameterNames::Options));
+    throw pcl_uvol::IOError(
+        "unusable_mesh",
+        {{"path", path},
+         {"reason", error.asMessage().text(pcl_uvol::ParameterNames::Options)}});
   }
   return surface;
 }

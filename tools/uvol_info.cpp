@@ -266,9 +266,7 @@ saveSampling(const std::string& input,
              Report& report)
 {
   if (!dataset.has_coordinates)
-    throw pcl_uvol::InvalidArgument("The sampling of " + input +
-                                    " is that of its coordinates, and it names none: "
-                                    "-xyz chooses them.");
+    throw pcl_uvol::InvalidArgument("no_coordinates_to_sample", {{"path", input}});
   {
     const pcl_uvol::StepTimer timer(report, "sampling");
     pcl_uvol::addSamplingFields(dataset, stretch, threads, report.progress);

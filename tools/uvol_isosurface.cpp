@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The main job: a file of scattered samples in, an oriented isosurface out.
 #include "common/memory.h"
-#include "common/numbers.h"
 #include "shared/options.h"
 #include "shared/point_files.h"
 #include "shared/progress_bar.h"
@@ -10,9 +9,7 @@
 #include "uvol_isosurface/result_facts.h"
 #include <pcl_uvol/io/dataset.h>
 
-#include <array>
 #include <cmath>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -30,22 +27,13 @@ using Arguments = uvol_tools::PipelineOptions;
 
 /** As MemoryGuard::describe() for a run within a bound. */
 Fact
-describeBound(const Options& options, const Arguments& arguments)
+describeBound(double bound)
 {
-  const auto bound =
-      static_cast<double>(arguments.makeOutOfCoreSettings(options).max_memory);
   const auto peak = static_cast<double>(pcl_uvol::peakMemory());
   return {"memory",
           "bound " + pcl_uvol::formatBytes(bound) + ", peak " +
               pcl_uvol::formatBytes(peak),
           Fact::Members{{"bound", {bound}}, {"peak", {peak}}}};
-}
-
-bool
-isStl(const std::string& path)
-{
-  return pcl_uvol::lowerCase(std::filesystem::path(path).extension().string()) ==
-         ".stl";
 }
 
 void
@@ -55,9 +43,6 @@ saveMesh(const std::string& path,
          Report& report)
 {
   const StepTimer timer(report, "write");
-  const auto& origin = result.surface.origin;
-  if (isStl(path) && origin != std::array<double, 3>{})
-    report.warn("stl_without_origin", {{"origin", joined(origin)}});
   pcl_uvol::saveMesh(path, result.surface, result.triangles, options);
   uvol_tools::warnOfLosses(path, result.surface, report);
 }
@@ -78,6 +63,7 @@ struct Job {
   Report report;
   Facts facts;
   std::optional<uvol_tools::MemoryGuard> memory; ///< none within a bound
+  std::uint64_t bound = 0;                       ///< of -max-memory, if it is given
 
   /** Extract, and write everything but the picture. */
   pcl_uvol::Dataset
@@ -114,6 +100,9 @@ struct Job {
   void
   draw(const pcl_uvol::Dataset& surface)
   {
+    std::optional<pcl_uvol::MemoryLimit> limit;
+    if (!memory)
+      limit.emplace(bound);
     const StepTimer total(report, "total");
     facts.emplace_back("backend", arguments.picture.draw(options, surface, report));
   }
@@ -121,7 +110,8 @@ struct Job {
   void
   tell()
   {
-    facts.push_back(memory ? memory->describe() : describeBound(options, arguments));
+    facts.push_back(memory ? memory->describe()
+                           : describeBound(static_cast<double>(bound)));
     uvol_tools::printReport(options, report, facts);
   }
 };
@@ -136,7 +126,9 @@ run(int argc, char** argv, uvol_tools::SeriesStep* step)
   if (!job->options.parse(argc, argv))
     return 0;
   arguments.finish(job->options);
-  if (!job->options.given("max-memory"))
+  if (job->options.given("max-memory"))
+    job->bound = arguments.makeOutOfCoreSettings(job->options).max_memory;
+  else
     job->memory.emplace(arguments.needsAllSamples()
                             ? "An isosurface"
                             : "Without -max-memory an isosurface");

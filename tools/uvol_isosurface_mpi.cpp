@@ -76,7 +76,7 @@ void
 finishParameters(const Options& options, Arguments& arguments)
 {
   arguments.finish(options);
-  if (arguments.parameters.automatic_scale)
+  if (arguments.parameters.takesAutomaticScale())
     throw UsageError("-scale auto is not offered, as no process sees all samples: give "
                      "three factors.");
   arguments.periodic.check();
@@ -108,10 +108,10 @@ load(Arguments& arguments,
   std::vector<std::uint64_t> left{part.cloud.width};
   communicator.allReduce(left);
   if (left[0] == 0)
-    throw pcl_uvol::InvalidArgument(joined(arguments.inputs) +
-                                    " has no points for which " + arguments.getWhere() +
-                                    ".");
-  const auto sides = arguments.periodic.findSides(part, report);
+    throw pcl_uvol::InvalidArgument(
+        "no_points_where",
+        {{"path", joined(arguments.inputs)}, {"where", arguments.getWhere()}});
+  const auto sides = arguments.periodic.findSides(part);
   arguments.parameters.periodic = Eigen::Array3d(sides.data());
   std::string& field = arguments.parameters.isosurface.field;
   if (!field.empty())
@@ -138,23 +138,6 @@ save(const Arguments& arguments,
     uvol_tools::warnOfLosses(arguments.output, output, report);
   }
   communicator.barrier();
-}
-
-/** The field that was taken, and the box that repeats. */
-uvol_tools::Facts
-tellSamples(const std::string& field,
-            const pcl_uvol::Dataset& part,
-            const Eigen::Array3d& sides,
-            pcl_uvol::Communicator& communicator)
-{
-  uvol_tools::Facts facts{{"field", field}};
-  if ((sides > 0.0).any()) {
-    Report own; // the pipeline has told of samples outside
-    const pcl_uvol::PeriodicBox box = pcl_uvol::findPeriodicBox(
-        part, {{sides[0], sides[1], sides[2]}}, communicator, own);
-    facts.push_back(uvol_tools::describeBox(box, part.origin));
-  }
-  return facts;
 }
 
 /** Isopoints of each isovalue, of all processes. */
@@ -188,8 +171,9 @@ extract(Arguments& arguments,
   const pcl_uvol::IsosurfaceResult result = pipeline.run();
   report.merge(result.report);
   save(arguments, result.field, result.surface, communicator, report);
-  uvol_tools::Facts facts =
-      tellSamples(result.field, *part, arguments.parameters.periodic, communicator);
+  uvol_tools::Facts facts{{"field", result.field}};
+  if (result.box)
+    facts.push_back(uvol_tools::describeBox(*result.box));
   const auto& isovalues = arguments.parameters.isosurface.isovalues;
   facts.emplace_back("isovalues", joined(isovalues), isovalues);
   facts.push_back(countIsopoints(result, communicator));

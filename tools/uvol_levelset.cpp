@@ -114,7 +114,7 @@ run(int argc, char** argv)
                      uvol_tools::derivativeBytes(wanted.initial.field_name, points)});
   };
   const auto samples = std::make_shared<pcl_uvol::Dataset>(job.read(bytes));
-  request.periodic = arguments.periodic.findSides(*samples, job.report);
+  request.periodic = arguments.periodic.findSides(*samples);
   for (std::string* field : {&wanted.field, &wanted.initial.field_name})
     uvol_tools::addField(*samples, *field, options, job.report, request.periodic);
   wanted.scale = arguments.scale.findStretch(pcl_uvol::viewOf(samples->cloud)).scale;
@@ -135,7 +135,7 @@ run(int argc, char** argv)
                                        arguments.plot_size.get()));
   job.facts.emplace_back("field", result.taken.field);
   if (result.box)
-    job.facts.push_back(uvol_tools::describeBox(*result.box, samples->origin));
+    job.facts.push_back(uvol_tools::describeBox(*result.box));
   append(job.facts, arguments.scale.describe(result.taken, result.scale_choice));
   job.facts.push_back(uvol_tools::describeSampling(result.sampling));
   append(job.facts, uvol_tools::describe(result.summary, !wanted.mu));

@@ -5,6 +5,7 @@
 #include "charts/picture_file.h"
 #include "common/printable.h"
 #include "common/scalar_field.h"
+#include "neighbors/periodic_box.h"
 #include "pipeline/memory_need.h"
 #include "shared/isosurface_options.h"
 #include "shared/measure_table.h"
@@ -198,8 +199,9 @@ loadSurface(const Options& options, const Arguments& arguments, Report& report)
     surface.samples =
         std::make_shared<Dataset>(uvol_tools::loadPoints(arguments.samples, report));
   surface.field = arguments.parameters.isosurface.field;
-  surface.periodic = arguments.periodic.findSides(
-      surface.samples ? *surface.samples : *surface.vertices, report);
+  const Dataset& in_box = surface.samples ? *surface.samples : *surface.vertices;
+  surface.periodic = arguments.periodic.findSides(in_box);
+  pcl_uvol::warnOfUnusedBox(in_box, surface.periodic, report);
   return surface;
 }
 
@@ -227,7 +229,7 @@ extractSurface(const Options& options,
                Report& report)
 {
   const auto samples = loadSamples(options, arguments, report);
-  const std::array<double, 3> sides = arguments.periodic.findSides(*samples, report);
+  const std::array<double, 3> sides = arguments.periodic.findSides(*samples);
   if (pcl_uvol::isPeriodic(sides)) {
     arguments.parameters.periodic = {sides[0], sides[1], sides[2]};
     arguments.parameters.periodic_mesh = pcl_uvol::PeriodicMesh::Weld;
@@ -243,9 +245,7 @@ extractSurface(const Options& options,
   pcl_uvol::IsosurfaceResult result = pipeline.run();
   report.merge(result.report);
   if (result.triangles.empty())
-    throw pcl_uvol::InvalidArgument(
-        "There is no isosurface to measure: " + result.field +
-        " has all its values on one side of the isovalues.");
+    throw pcl_uvol::InvalidArgument("no_surface_to_measure", {{"field", result.field}});
   return {std::make_shared<Dataset>(std::move(result.surface)),
           std::move(result.triangles),
           samples,

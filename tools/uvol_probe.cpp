@@ -6,7 +6,9 @@
 #include "io/cell_loader.h"
 #include "io/formats.h"
 #include "io/memory_need.h"
+#include "neighbors/samples_in_box.h"
 #include "neighbors/sampling.h"
+#include "pipeline/periodic_surface.h"
 #include "shared/memory_guard.h"
 #include "shared/options.h"
 #include "shared/periodic_option.h"
@@ -288,7 +290,7 @@ run(int argc, char** argv, uvol_tools::SeriesStep* step)
                                            &points);
   report.count("points", points);
   const pcl_uvol::SamplesInBox boxed(samples,
-                                     arguments.periodic.findSides(samples, report),
+                                     arguments.periodic.findSides(samples),
                                      Eigen::Array3f::Ones(),
                                      options.threads(),
                                      report);
@@ -367,7 +369,9 @@ run(int argc, char** argv, uvol_tools::SeriesStep* step)
       summary.warn(report);
     }
   }
-  uvol_tools::tellBox(boxed, facts);
+  if (boxed.isPeriodic())
+    facts.push_back(uvol_tools::describeBox(
+        pcl_uvol::toSampleBox(boxed.getBox(), boxed.getOrigin())));
   total.reset();
   facts.push_back(memory.describe());
   uvol_tools::printReport(options, report, facts);

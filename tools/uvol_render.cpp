@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A picture of a surface given as points (thesis 4.3).
 #include "charts/picture_file.h"
+#include "interpolation/memory_need.h"
 #include "shared/memory_guard.h"
 #include "shared/point_files.h"
 #include "shared/render_options.h"
@@ -93,9 +94,9 @@ run(int argc, char** argv, uvol_tools::SeriesStep* step)
 
   const auto forecastMemory = [&look = job->look, is_page = job->is_page](double points,
                                                                           double) {
-    return std::max(
-        look.hasColorOfSamples() ? uvol_tools::derivative_bytes * points : 0.0,
-        is_page ? pcl_uvol::footprintsBytes(points) : look.findBytes(points, 1));
+    return std::max(look.hasColorOfSamples() ? pcl_uvol::derivativeBytes(points) : 0.0,
+                    is_page ? pcl_uvol::footprintsBytes(points)
+                            : look.findBytes(points, 1));
   };
   memory.checkFile(input, forecastMemory);
   pcl_uvol::Dataset dataset = uvol_tools::loadPoints(input, report);

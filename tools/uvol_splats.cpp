@@ -42,16 +42,6 @@ generateSplats(const pcl::PCLPointCloud2& cloud,
   return result;
 }
 
-/** "x, y, z" */
-std::string
-describePlace(const std::array<double, 3>& place)
-{
-  uvol_tools::FactText text;
-  text.precision(12);
-  text << place[0] << ", " << place[1] << ", " << place[2];
-  return text.str();
-}
-
 /** What the tool holds beside the points: splats as bytes, and with the other fields.
  */
 double
@@ -105,13 +95,7 @@ run(int argc, char** argv)
     const pcl_uvol::CloudView splats = pcl_uvol::viewOf(result.cloud);
     const std::string field = pcl_uvol::resolveColor(splats, color);
     const pcl_uvol::ColorMapping mapping = colors.mapFor(splats, field);
-    pcl_uvol::warnOfLogarithms(splats, field, mapping, job.report);
-    result.cloud = pcl_uvol::makeGaussians(splats, field, mapping);
-    if (result.origin != std::array<double, 3>{})
-      job.report.warn("gaussians_without_origin",
-                      {{"origin", describePlace(result.origin)}});
-    result.origin = {};
-    result.double_coordinates = false;
+    result = pcl_uvol::makeGaussians(result, field, mapping, job.report);
   }
   return job.finish(result);
 }

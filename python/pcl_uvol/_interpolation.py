@@ -82,7 +82,7 @@ class Interpolator:
     {scale, rotate}
     kriging, sph, shepard : dict
         Parameters of these models, by the library's names: `kriging={"variogram": "gaussian",
-        "nugget": 0.1}`. "sill" is the partial sill, without the nugget.
+        "nugget": 0.1}`. "psill" is the partial sill, without the nugget.
     periodic : sequence of three float, or "header"
         Sides of the periodic box, in units of length; 0 along an axis that is not periodic.
         "header": the sides that the file names (`Samples.box`). Queries can be in any of the boxes.
@@ -120,6 +120,8 @@ class Interpolator:
         self._sides = samples._find_box(periodic)
         self._own = len(samples)
         cells = samples._find_cells() if _parameters.flag(cell_mask, "cell_mask") and not any(self._sides) else None
+        if any(samples.box) and not any(self._sides):
+            _report.tell([_report.message("box_in_file", sides=",".join(f"{side:.15g}" for side in samples.box))])
         if any(self._sides):
             samples = Samples._of(samples._with_images(self._sides, (1.0, 1.0, 1.0), threads, progress).samples)
         self._is_single = isinstance(field, str)
@@ -166,7 +168,7 @@ class Interpolator:
 
     @property
     def variograms(self):
-        """dict: of kriging, by field: kind, nugget, sill (the partial sill: without the
+        """dict: of kriging, by field: kind, nugget, psill (the partial sill: without the
         nugget) and range. They are fitted to half the mean squares of differences (values),
         by distance, with the number of pairs of samples. Empty with other models.
 

@@ -164,12 +164,9 @@ def splats(points, fields=None, *, delta=1e-4, delta_is_length=False, overlap=0.
     parameters = {"delta": delta, "delta_is_length": delta_is_length, "lambda": overlap}
     found, report, taken = _run(_core.generate_splats, as_samples(points, fields), parameters, threads, progress)
     if gaussians:
-        if any(found.origin):
-            place = ", ".join(f"{number:.12g}" for number in found.origin)
-            lost = [_report.message("gaussians_without_origin", origin=place)]
-            report["warnings"] += lost
-            _report.tell(lost)
-        found = _core.make_gaussians(found, _parameters.text(color, "color"))
+        found, lost = _core.make_gaussians(found, _parameters.text(color, "color"))
+        report["warnings"] += lost
+        _report.tell(lost)
     return Samples._of(found, report, dict(taken, gaussians=gaussians, color=color))
 
 

@@ -316,10 +316,7 @@ class Extractor:
         """
         sides = self.samples._find_box(periodic)
         samples, field = self.samples._with_numbers(field, threads, progress, sides)
-        fill_gaps = _parameters.flag(fill_gaps, "fill_gaps")
-        if scale is None:
-            scale = "auto" if fill_gaps else (1.0, 1.0, 1.0)
-        stretch = _parameters.Stretch(scale, rotate)
+        stretch = _parameters.Stretch((1.0, 1.0, 1.0) if scale is None else scale, rotate)
         by_field = stretch.word == "auto"
         parameters = {
             "isosurface": {
@@ -332,7 +329,7 @@ class Extractor:
                 "criterion": criterion,
                 "scale": [1.0, 1.0, 1.0] if by_field else stretch.resolve(samples._dataset),
             },
-            "automatic_scale": by_field,
+            "automatic_scale": None if scale is None else by_field,
             "rotation": stretch.rotation,
             "smooth": smooth,
             "level_set": {**_parameters.mapping(level_set, "level_set"), **({} if mu is None else {"mu": mu})},
@@ -341,7 +338,7 @@ class Extractor:
             "max_error": None if _is_auto(max_error) else max_error,
             "automatic_max_error": _is_auto(max_error),
             "drop_bridged": drop_bridged,
-            "fill_gaps": fill_gaps,
+            "fill_gaps": _parameters.flag(fill_gaps, "fill_gaps"),
             "outside_value": outside_value,
             "validation": _validation(validate, validate_by),
             "mesh": _meshing(mesh),

@@ -81,6 +81,10 @@ const MessageText error_rows[] = {
      "or avx512."},
     {"not_enough_memory",
      "{what} needs {needed} of memory, and only {available} are available."},
+    {"memory_of_other_processes",
+     "{processes} of the other processes have too little memory for their samples. "
+     "Try: "
+     "more processes or machines."},
 
     // neighbors
     {"too_many_candidates",
@@ -700,6 +704,64 @@ const MessageText error_rows[] = {
 
     // tools
     {"no_points", "{path} has no points."},
+    {"no_points_where", "{path} has no points for which {where}."},
+    {"no_box_in_file",
+     "The file names no box. Try: its sides, as in {-periodic 100,100,100}."},
+    {"splats_out_of_range",
+     "None of the splats can be drawn: their coordinates are too large or too small. "
+     "Try: other units."},
+    {"no_coordinates_for", "The input has no coordinates for {-position}."},
+    {"labels_not_integers",
+     "The field {field} has values that are not integers: it does not hold labels."},
+    {"no_variogram_of_constant",
+     "The field {field} is the same at all samples: there is no variogram."},
+    {"no_coordinates_to_sample",
+     "The sampling of {path} is that of its coordinates, and it names none. Try: "
+     "{-xyz}."},
+    {"no_coordinates_to_draw",
+     "The input has no coordinates to draw a surface in. Try: uvol_project."},
+    {"no_surface_to_measure",
+     "There is no isosurface to measure: {field} has all its values on one side of the "
+     "isovalues."},
+    {"unusable_mesh", "Cannot use '{path}': {reason}"},
+    {"bad_chart_size", "An image has 1 to {most} pixels along each side."},
+    {"labels_unlike_points", "There are {labels} labels for {points} points."},
+    {"page_not_made", "Cannot make a page: {reason}."},
+    {"data_elsewhere", "Cannot read '{path}', whose data lie elsewhere: {reason}"},
+    {"command_line", "{text}"},
+    {"tool_not_started", "{path} could not be started: {reason}."},
+    {"output_closed", "Standard output could not be written."},
+    {"out_of_memory", "There is not enough memory."},
+    {"out_of_threads", "There are not enough memory or threads for it."},
+
+    // viewer
+    {"all_values_missing", "All values of {field} are without a number."},
+    {"no_points_to_show", "There are no points to be shown."},
+    {"all_values_equal",
+     "All values of {field} are equal: there is no isosurface between them."},
+    {"isovalue_beyond_values",
+     "The isovalue lies between {low} and {high}, the range of {field}, and is not "
+     "{isovalue}."},
+    {"mesh_of_surface_points",
+     "A mesh is made of samples, and these are points of a surface. Try: {-field} for "
+     "the isosurfaces of samples."},
+    {"no_points_at_isovalue",
+     "There are no points at this isovalue of {field}. Try: another isovalue."},
+    {"no_points_at_isovalues",
+     "There are no points at the isovalues of {path} that were tried."},
+    {"no_surface_to_draw", "There is no surface to draw."},
+    {"no_surface_to_save", "There is no surface to save."},
+    {"not_a_number", "{text} is not a number."},
+    {"no_display",
+     "There is no display (DISPLAY is not set). Try: uvol_render, which draws images "
+     "without one."},
+    {"display_not_opened",
+     "The display {display} cannot be opened. Try: uvol_render, which draws images "
+     "without one."},
+    {"display_without_opengl",
+     "The display {display} has no OpenGL. Try: uvol_render, which draws images "
+     "without "
+     "one."},
 
     // derivatives
     {"few_neighbors_for_scheme",
@@ -784,8 +846,9 @@ const MessageText error_rows[] = {
     {"memory_for_block",
      "{samples} samples around one position do not fit into {allowed} of memory."},
     {"memory_for_result",
-     "The result requires more than {needed} of memory, but only {allowed} are "
-     "allowed."},
+     "The result does not fit into {allowed} of memory: it requires more than "
+     "{needed}. "
+     "Try: a larger {-max-memory}."},
     {"scratch_folder_refused",
      "The scratch folder {folder} is not writable: {reason}."},
     {"scratch_folder_full",

@@ -2,8 +2,10 @@
 #include "common/memory.h"
 
 #include <algorithm>
+#include <atomic>
 #include <fstream>
 #include <limits>
+#include <malloc.h>
 #include <sstream>
 #include <sys/resource.h>
 
@@ -12,6 +14,8 @@ namespace pcl_uvol {
 namespace {
 
 constexpr std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max();
+
+std::atomic<std::uint64_t> process_limit{unlimited};
 
 /** The number behind a name in a file of lines "name number"; otherwise if there is
  * none. */
@@ -91,6 +95,19 @@ availableTo(decltype(RLIMIT_AS) resource, const char* used)
          std::min<std::uint64_t>(limit.rlim_cur, bytesIn("/proc/self/status", used, 0));
 }
 
+/** What MemoryLimit leaves. */
+std::uint64_t
+availableWithinLimit()
+{
+  const std::uint64_t limit = process_limit;
+  if (limit == unlimited)
+    return unlimited;
+#if defined(__GLIBC__)
+  malloc_trim(0); // what was freed is in use as long as the heap keeps it
+#endif
+  return limit - std::min(limit, residentMemory());
+}
+
 } // namespace
 
 std::uint64_t
@@ -98,6 +115,7 @@ availableMemory()
 {
   return std::min({bytesIn("/proc/meminfo", "MemAvailable:", unlimited),
                    availableInControlGroups(),
+                   availableWithinLimit(),
                    availableTo(RLIMIT_AS, "VmSize:"),
                    availableTo(RLIMIT_DATA, "VmData:")});
 }
@@ -136,6 +154,16 @@ peakMemory()
   return bytesIn("/proc/self/status", "VmHWM:", 0);
 }
 
+MemoryLimit::MemoryLimit(std::uint64_t bytes)
+    : before_(process_limit.exchange(bytes))
+{
+}
+
+MemoryLimit::~MemoryLimit()
+{
+  process_limit = before_;
+}
+
 std::string
 formatBytes(double bytes)
 {
@@ -166,7 +194,7 @@ void
 checkMemoryOf(const std::string& task, std::size_t points, double bytes)
 {
   constexpr double small = 1e7;
-  if (bytes > small)
+  if (bytes > small || process_limit != unlimited)
     checkMemory(task + " of " + std::to_string(points) + " points", bytes);
 }
 

@@ -12,8 +12,8 @@
 namespace pcl_uvol {
 
 /** \brief Bytes that the process can still take without swapping or being killed: the
- * least that the system, the control groups and the limits of the process leave; the
- * largest number where none of them tells. */
+ * least that the system, the control groups, the limits of the process and MemoryLimit
+ * leave; the largest number where none of them tells. */
 PCL_UVOL_EXPORTS std::uint64_t
 availableMemory();
 
@@ -34,6 +34,21 @@ residentMemory();
 /** \brief The most of it so far (VmHWM). */
 PCL_UVOL_EXPORTS std::uint64_t
 peakMemory();
+
+/** \brief While it lives, all checks of memory hold the whole process against a bound,
+ * small work as well. A limit within another one replaces it for that time. */
+class PCL_UVOL_EXPORTS MemoryLimit {
+public:
+  /** \param bytes that the process may have in use */
+  explicit MemoryLimit(std::uint64_t bytes);
+  MemoryLimit(const MemoryLimit&) = delete;
+  MemoryLimit&
+  operator=(const MemoryLimit&) = delete;
+  ~MemoryLimit();
+
+private:
+  std::uint64_t before_;
+};
 
 /** \brief "1.6 GB": two digits, in powers of 1000. */
 PCL_UVOL_EXPORTS std::string

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <limits>
+#include <sstream>
 #include <type_traits>
 
 namespace pcl_uvol {
@@ -176,6 +177,15 @@ std::string
 describeCount(std::uint64_t count, const std::string& one, const std::string& several)
 {
   return std::to_string(count) + " " + (count == 1 ? one : several);
+}
+
+std::string
+joinNumbers(const std::array<double, 3>& numbers)
+{
+  std::ostringstream text;
+  text.precision(std::numeric_limits<double>::digits10);
+  text << numbers[0] << ',' << numbers[1] << ',' << numbers[2];
+  return text.str();
 }
 
 std::string_view

@@ -4,6 +4,7 @@
 
 #include <pcl_uvol/common/export.h>
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -36,6 +37,11 @@ floatHoldsDigits(std::string_view text, double value);
 /** \brief A number and the words for it, which are those for one or for several. */
 PCL_UVOL_EXPORTS std::string
 describeCount(std::uint64_t count, const std::string& one, const std::string& several);
+
+/** \brief Three numbers between commas, with the digits that a double keeps of a text.
+ */
+PCL_UVOL_EXPORTS std::string
+joinNumbers(const std::array<double, 3>& numbers);
 
 PCL_UVOL_EXPORTS std::string_view
 trimmed(std::string_view text);

@@ -58,10 +58,14 @@ const MessageText warning_rows[] = {
     {"weak_support",
      "{weak} of the {queries} query positions are in gaps, at the border, or near "
      "samples that do not determine the model. Their values are poorly constrained."},
-    {"unsure_values",
-     "{unsure} of the {values} values of {field} have a standard error above the "
+    {"uncertain_values",
+     "{uncertain} of the {values} values of {field} have a standard error above the "
      "spread of the samples. The model is unreliable there. Try: {-validate} to "
      "compare models."},
+    {"total_sill",
+     "The partial sill of {field} is {psill}, near the variance of the samples, "
+     "{variance}, and there is a nugget of {nugget}. It may be the total sill. Try: "
+     "{rest} as the partial sill if so."},
     {"no_variogram",
      "The field {field} is constant, so it has no variogram. Every estimate is that "
      "constant, with error 0."},
@@ -109,18 +113,19 @@ const MessageText warning_rows[] = {
     {"open_pieces",
      "{open} of {pieces} pieces are open, or their outside contradicts other pieces. "
      "They enclose no volume, and only their area is measured."},
-    {"vague_measures",
-     "The area or volume of {vague} of {surfaces} surfaces is uncertain by more than a "
+    {"uncertain_measures",
+     "The area or volume of {uncertain} of {surfaces} surfaces is uncertain by more "
+     "than a "
      "third, because the errors of the vertices are large."},
     {"missed_samples",
      "The surface at {isovalue} encloses {enclosed} samples; {beyond} are beyond the "
      "isovalue. {encloses_more|It is unconstrained between samples.|It misses small "
      "clumps.} Try: sums beyond the isovalue (masses)."},
-    {"kept_unsure_pieces",
+    {"kept_uncertain_pieces",
      "All pieces of some isovalues ({kept} of {pieces}) have an error as large as the "
      "piece. They are kept, because no others exist. Try: other isovalues."},
-    {"unsure_pieces",
-     "{unsure} of {pieces} pieces (area {area} +- {error}) have errors as large as "
+    {"uncertain_pieces",
+     "{uncertain} of {pieces} pieces (area {area} +- {error}) have errors as large as "
      "themselves: few samples surround them, or debris. {are_left_out|They are "
      "excluded.|Try: {-drop-unsure} to exclude them.}"},
     {"flat_surfaces",
@@ -202,16 +207,16 @@ const MessageText warning_rows[] = {
     {"isopoints_beside_samples",
      "{percent} % of the isopoints are at the border of the samples or in gaps. The "
      "surface may continue there. Try: samples farther out, if available."},
-    {"guessed_isopoints",
+    {"unconstrained_isopoints",
      "{percent} % of isopoints are between sample lines or next to gaps. Only "
      "crossings with lines are reliable. Try: {validate|{-validate}, "
      "|}{scale|{-scale}, |}{gaps|{-fill-gaps}, |}{bridged|{-drop-bridged}, |}more "
      "samples."},
-    {"smoothed_guesses",
+    {"unconstrained_level_set",
      "{percent} % of the isopoints are between lines of samples or next to gaps. The "
      "surface is not constrained there. Try: {-validate} and {-fill-gaps} with the "
      "unsmoothed isosurface."},
-    {"guessed_border",
+    {"unconstrained_border",
      "{percent} % of the isopoints are in or next to gaps between samples. The cluster "
      "border is not constrained there. Try: a surface at a distance from the points."},
     {"thin_parts",
@@ -234,20 +239,23 @@ const MessageText warning_rows[] = {
      "{by_error|{-max-error}{by_support| and {-drop-bridged}|}|{-drop-bridged}} "
      "removed the last {isopoints|isopoint|{isopoints} isopoints}. No part of the "
      "surface is certain enough.{by_error| Try: a larger {-max-error}.|}"},
-    {"surface_tells_nothing",
-     "Near the surface, cross-validation is worse than the baseline: the majority "
-     "class classifies more held-out samples correctly. Do not use the surface between "
-     "the samples."},
-    {"samples_tell_better",
-     "Near the surface, the nearest sample classifies held-out samples better than the "
-     "surface does. The values change too fast, or are noisy. Try: {-smooth}, or "
-     "{-where} against outliers."},
-    {"lines_tell_better",
-     "Near the surface, the nearest sample classifies held-out samples better than the "
-     "surface. Use only the crossings with lines.{scale| Try: {-scale}{gaps| or "
+    {"worse_than_baseline",
+     "Near the surface, cross-validation is worse than the baseline: {surface} % of "
+     "{samples} held-out samples are classified correctly; the majority class has "
+     "{baseline} %. Do not use the surface between the samples."},
+    {"worse_than_nearest_sample",
+     "Near the surface, the surface classifies {surface} % of {samples} held-out "
+     "samples "
+     "correctly, the nearest sample {nearest} %. The values change too fast, or are "
+     "noisy. Try: {-smooth}, or {-where} against outliers."},
+    {"worse_than_nearest_on_lines",
+     "Near the surface, the surface classifies {surface} % of {samples} held-out "
+     "samples "
+     "correctly, the nearest sample {nearest} %. Use only the crossings with "
+     "lines.{scale| Try: {-scale}{gaps| or "
      "{-fill-gaps}|}.|{gaps| Try: {-fill-gaps}.|}}"},
     {"small_errors",
-     "More than 20 % of the held-out samples beyond the estimated error are on the "
+     "Of {samples} held-out samples beyond the estimated error, {percent} % are on the "
      "wrong side. Errors are too small, or samples noisy. Do not filter by error."},
     {"unfilled_gaps",
      "There are gaps between the samples, but none was filled: {reason}."},
@@ -263,7 +271,7 @@ const MessageText warning_rows[] = {
      "Filled gaps make the surface worse: the median error is {predicted:3} between "
      "predicted samples, but {measured:3} between measured samples across gaps. Try: "
      "no {-fill-gaps}."},
-    {"guess_in_gaps",
+    {"unconstrained_gaps",
      "The surface in gaps is unreliable: at half of its isopoints, kriging explains at "
      "most {percent} % of the variance (field confidence). Check it with {-validate}."},
     {"equal_isovalues",
@@ -452,8 +460,9 @@ const MessageText warning_rows[] = {
      "The image is grey at {hidden} of {places} points: values of '{field}' are not "
      "positive there and have no logarithm."},
     {"unconstrained_measures",
-     "Most of the surface is between lines of samples or next to gaps. Its measures "
-     "are not constrained. Try: {-block dx,dy,dz} for volumes without a surface."},
+     "{percent} % of the surface is between lines of samples or next to gaps. Its "
+     "measures are not constrained. Try: {-block dx,dy,dz} for volumes without a "
+     "surface."},
     {"no_triangles",
      "{surface} has no triangles. Distances to its points are used, which are limited "
      "by the point spacing."},

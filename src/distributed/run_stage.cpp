@@ -2,6 +2,7 @@
 // The one way through the pieces, wherever these are.
 #include "distributed/run_stage.h"
 
+#include "common/memory.h"
 #include "distributed/block_store.h"
 #include "distributed/byte_stream.h"
 #include "distributed/rank_store.h"
@@ -9,6 +10,7 @@
 #include "neighbors/sampling.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace pcl_uvol {
@@ -150,6 +152,31 @@ private:
   StageSamples samples_;
 };
 
+/** Bytes of a stage on many processes, per sample of a process. */
+constexpr double rank_sample_bytes = 130.0;
+
+/** \throws NotEnoughMemory on all processes if one of them has too little */
+void
+checkMemoryTogether(std::size_t samples, Communicator& communicator)
+{
+  std::vector<std::uint64_t> failed{0};
+  std::optional<NotEnoughMemory> own;
+  try {
+    checkMemoryOf("The part of this process",
+                  samples,
+                  rank_sample_bytes * static_cast<double>(samples));
+  }
+  catch (const NotEnoughMemory& error) {
+    own = error;
+    failed[0] = 1;
+  }
+  communicator.allReduce(failed);
+  if (own)
+    throw *own;
+  if (failed[0] > 0)
+    throw NotEnoughMemory("memory_of_other_processes", {{"processes", failed[0]}});
+}
+
 } // namespace
 
 BlockStore::~BlockStore() = default;
@@ -163,6 +190,7 @@ runOnRanks(PieceStage& stage,
            unsigned threads,
            Report& report)
 {
+  checkMemoryTogether(samples.size(), communicator);
   RankStore store(std::move(samples), communicator, threads, report);
   return StageRun(stage, store, threads, report).run();
 }

@@ -41,8 +41,9 @@ struct StageSamples {
  * \param report gets the counts and times of the stage for this process, the counts
  * "duplicates", "conflicting_duplicates", "pieces", "samples", "bytes_redistributed"
  * and "bytes_exchanged", and the times of "decomposition", "tree" and "exchange"
- * \throws InvalidArgument on all processes if there is no sample at all.
- * Memory: about 130 bytes per sample. */
+ * \throws InvalidArgument on all processes if there is no sample at all
+ * \throws NotEnoughMemory on all processes if one of them has not 130 bytes for each of
+ * its samples */
 PCL_UVOL_EXPORTS StageSamples
 runOnRanks(PieceStage& stage,
            Samples&& samples,

@@ -133,7 +133,6 @@ vtkUvolIsosurface::Execute(pcl_uvol::FilterRun& run)
                              ? pcl_uvol::AngleCriterion::Kept
                              : pcl_uvol::AngleCriterion::All;
   parameters.fill_gaps = this->FillGaps;
-  parameters.automatic_scale = this->FillGaps && (isosurface.scale == 1.0f).all();
   parameters.smooth = this->Smooth;
   if (this->MaximumError > 0.0)
     parameters.max_error = this->MaximumError;

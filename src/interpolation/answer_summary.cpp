@@ -110,8 +110,8 @@ AnswerSummary::warnOfSupport(Report& report) const
   }
   for (const Field& field : fields_)
     if (2 * field.uncertain > field.count)
-      report.warn("unsure_values",
-                  {{"unsure", field.uncertain},
+      report.warn("uncertain_values",
+                  {{"uncertain", field.uncertain},
                    {"values", field.count},
                    {"field", field.name}});
 }

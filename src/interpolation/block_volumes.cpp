@@ -139,10 +139,10 @@ private:
   double
   correlate(std::size_t a, std::size_t b) const
   {
-    if (a == b || !(variogram_.sill > 0.0))
+    if (a == b || !(variogram_.psill > 0.0))
       return a == b ? 1.0 : 0.0;
     const double distance = (blocks_[a].stretched - blocks_[b].stretched).norm();
-    return variogram_.covariance(distance) / variogram_.sill;
+    return variogram_.covariance(distance) / variogram_.psill;
   }
 
   const std::vector<KnownBlock>& blocks_;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "common/memory.h"
 #include "common/parallel.h"
 #include "common/parameter_json.h"
 #include "common/sample_checks.h"
@@ -9,6 +10,7 @@
 #include "interpolation/field_model.h"
 #include "interpolation/kernel_sums.h"
 #include "interpolation/kriging_model.h"
+#include "interpolation/memory_need.h"
 #include "interpolation/natural_model.h"
 #include "interpolation/query_order.h"
 #include "interpolation/sample_cells.h"
@@ -333,6 +335,12 @@ FieldInterpolator::FieldInterpolator(const CloudView& input,
 {
   checkParameters(parameters);
   checkIndices(indices, input.count, "FieldInterpolation");
+  checkMemoryOf(
+      "Interpolation",
+      indices.size(),
+      leastInterpolationBytes(static_cast<double>(indices.size()),
+                              std::max(1.0, static_cast<double>(names_.size())),
+                              parameters));
   if (parameters.model == InterpolationModel::Auto)
     parameters_.model =
         chooseModel(input, indices, parameters, threads, report).scores.front().model;
@@ -372,6 +380,10 @@ FieldInterpolator::answer(const std::vector<std::array<double, 3>>& queries,
                           unsigned threads,
                           StepTimer& step) const
 {
+  const auto asked = static_cast<double>(queries.size());
+  checkMemoryOf("Interpolation at the positions",
+                queries.size(),
+                answerBytes(asked, static_cast<double>(names_.size()), parameters_));
   InterpolatedFields result;
   result.names = names_;
   result.size = queries.size();
@@ -461,7 +473,7 @@ FieldInterpolator::findVariogram(std::size_t field) const
         const LengthUnit& unit = group.sampled.samples->getUnit();
         FittedVariogram told = *found;
         told.model.nugget /= factor;
-        told.model.sill /= factor;
+        told.model.psill /= factor;
         told.model.range = unit.toInput(told.model.range);
         const auto toInput = [&](EmpiricalVariogram& empirical) {
           for (double& distance : empirical.distance)

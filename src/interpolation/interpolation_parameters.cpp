@@ -39,7 +39,7 @@ check(const KrigingParameters& kriging)
     return std::isnan(value) || (std::isfinite(value) && value >= 0.0);
   };
   check(isLevel(kriging.nugget), "nugget", kriging.nugget, level);
-  check(isLevel(kriging.sill), "sill", kriging.sill, level);
+  check(isLevel(kriging.psill), "partial sill", kriging.psill, level);
   check(std::isnan(kriging.range) ||
             (std::isfinite(kriging.range) && kriging.range > 0.0),
         "range of the variogram",

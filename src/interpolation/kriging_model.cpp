@@ -122,6 +122,30 @@ private:
   std::vector<std::pair<std::uint32_t, Vector3d>> found_;
 };
 
+/** Whether a partial sill that is given fits the variance of the samples, and not the
+ * rest that the nugget leaves of it. */
+bool
+looksLikeTotal(const Variogram& given, double variance)
+{
+  return given.psill > given.nugget &&
+         std::abs(given.psill - variance) < 0.5 * given.nugget;
+}
+
+double
+computeVariance(const SampledFields& sampled, std::size_t field)
+{
+  const std::size_t count = sampled.samples->size();
+  double sum = 0.0, squares = 0.0;
+  for (std::size_t i = 0; i < count; ++i)
+    sum += sampled.valuesOf(i)[field];
+  const double mean = sum / static_cast<double>(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double rest = sampled.valuesOf(i)[field] - mean;
+    squares += rest * rest;
+  }
+  return squares / static_cast<double>(count);
+}
+
 } // namespace
 
 KrigingModel::KrigingModel(const SampledFields& sampled,
@@ -143,7 +167,7 @@ KrigingModel::KrigingModel(const SampledFields& sampled,
     const double factor = frames[f].factor * frames[f].factor;
     const Variogram given{parameters.variogram,
                           parameters.nugget * factor,
-                          parameters.sill * factor,
+                          parameters.psill * factor,
                           parameters.range * sampled.samples->getUnit().factor};
     EmpiricalVariograms empirical =
         computeEmpiricalVariograms(sampled, f, metric_, parameters.trend);
@@ -151,8 +175,16 @@ KrigingModel::KrigingModel(const SampledFields& sampled,
     variograms_.push_back({fitted, std::move(empirical)});
     targets_.push_back((parameters.block > 0.0f).any() ? KrigingTarget(fitted, block)
                                                        : KrigingTarget(fitted));
-    if (!(fitted.sill + fitted.nugget > 0.0))
+    if (!(fitted.psill + fitted.nugget > 0.0))
       constant_.push_back(names[f]);
+    const double variance = computeVariance(sampled, f);
+    if (looksLikeTotal(given, variance))
+      total_sills_.push_back({"total_sill",
+                              {{"field", names[f]},
+                               {"psill", parameters.psill},
+                               {"variance", variance / factor},
+                               {"nugget", parameters.nugget},
+                               {"rest", parameters.psill - parameters.nugget}}});
   }
 }
 
@@ -181,7 +213,7 @@ KrigingModel::evaluate(const Query* queries,
         values[j] = sampled_.valuesOf(near[static_cast<std::size_t>(j)].first)[f];
       const Variogram& variogram = variograms_[f].model;
       KrigingEstimate estimate{values[0], 0.0, Vector3d::Zero()};
-      if (variogram.sill + variogram.nugget > 0.0)
+      if (variogram.psill + variogram.nugget > 0.0)
         estimate = KrigingSystem(offsets, variogram, targets_[f], parameters_.trend)
                        .estimate(values);
       const std::size_t place = i * sampled_.fields + f;
@@ -201,6 +233,8 @@ KrigingModel::tell(Report& report) const
 {
   for (const std::string& name : constant_)
     report.warn("no_variogram", {{"field", name}});
+  report.warnings.insert(
+      report.warnings.end(), total_sills_.begin(), total_sills_.end());
 }
 
 } // namespace pcl_uvol::detail

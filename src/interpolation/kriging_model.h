@@ -51,6 +51,7 @@ private:
   std::vector<FittedVariogram> variograms_;
   std::vector<KrigingTarget> targets_; ///< of each field
   std::vector<std::string> constant_;  ///< names of fields that are
+  std::vector<Message> total_sills_;   ///< given as partial ones, as it seems
   std::vector<Position> sparse_;
 };
 

@@ -20,7 +20,7 @@ constexpr int places_along = 4;
 
 KrigingTarget::KrigingTarget(const Variogram& variogram)
     : places(Eigen::MatrixX3d::Zero(1, 3))
-    , variance(variogram.nugget + variogram.sill)
+    , variance(variogram.nugget + variogram.psill)
 {
 }
 
@@ -66,7 +66,7 @@ KrigingSystem::KrigingSystem(const Eigen::MatrixX3d& offsets,
     unit_ = 1.0;
   while (trend_ > 0 && trendTerms(trend_) > count)
     --trend_;
-  const double variance = variogram.nugget + variogram.sill;
+  const double variance = variogram.nugget + variogram.psill;
   Eigen::MatrixXd matrix(count, count);
   to_target_.setZero(count);
   terms_.resize(count, trendTerms(trend_));

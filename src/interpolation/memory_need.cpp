@@ -71,16 +71,22 @@ interpolationBytes(double samples,
   const double building = (building_bytes + number_bytes * fields) * samples;
   const double of_variogram =
       usesVariogram(parameters.model) ? detail::variogramBytes(samples) : 0.0;
+  const double answering = modelBytes(samples, fields, parameters.model, shape) +
+                           answerBytes(queries, fields, parameters);
+  // Pairs of a variogram are given back in blocks that the heap keeps.
+  return in_order + of_variogram + std::max(building, answering);
+}
+
+double
+answerBytes(double queries, double fields, const InterpolationParameters& parameters)
+{
   // Queries as they came and among the samples, their order and how it is found.
   const double of_query = 3.0 * number_bytes + sizeof(detail::Query) +
                           2.0 * index_bytes + 2.0 * number_bytes;
   const double numbers =
       1.0 + (parameters.errors ? 1.0 : 0.0) + (parameters.gradients ? 3.0 : 0.0);
   const double of_answer = number_bytes * numbers * fields + 1.0;
-  const double answering = modelBytes(samples, fields, parameters.model, shape) +
-                           (of_query + of_answer) * queries;
-  // Pairs of a variogram are given back in blocks that the heap keeps.
-  return in_order + of_variogram + std::max(building, answering);
+  return (of_query + of_answer) * queries;
 }
 
 } // namespace pcl_uvol

@@ -7,6 +7,22 @@
 
 namespace pcl_uvol {
 
+/** \brief Of detail::computeDerivatives of three fields, with what goes in and comes
+ * out. */
+constexpr double
+derivativeBytes(double points)
+{
+  return 160.0 * points;
+}
+
+/** \brief Of addSphDensity: samples with their tree, kernels, masses twice, densities.
+ */
+constexpr double
+sphDensityBytes(double points)
+{
+  return (36.0 + 40.0 + 3 * 8.0 + 24.0) * points;
+}
+
 /** \brief How many samples matter to queries: all of them, those about a plane or those
  * about a line. */
 enum class QueryShape { Space, Plane, Line };
@@ -20,5 +36,19 @@ interpolationBytes(double samples,
                    const InterpolationParameters& parameters,
                    double queries,
                    QueryShape shape);
+
+/** \brief Least of a FieldInterpolator before it answers: fits are made where queries
+ * are. */
+inline double
+leastInterpolationBytes(double samples,
+                        double fields,
+                        const InterpolationParameters& parameters)
+{
+  return interpolationBytes(samples, fields, parameters, 0.0, QueryShape::Line);
+}
+
+/** \brief Of the queries of a FieldInterpolator and their answers. */
+PCL_UVOL_EXPORTS double
+answerBytes(double queries, double fields, const InterpolationParameters& parameters);
 
 } // namespace pcl_uvol

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "interpolation/sample_derivatives.h"
 
+#include "common/memory.h"
 #include "common/parallel.h"
 #include "common/value_frame.h"
 #include "interpolation/derivative_fitter.h"
+#include "interpolation/memory_need.h"
 #include "neighbors/sample_values.h"
 #include <pcl_uvol/common/exceptions.h>
 
@@ -119,6 +121,8 @@ computeDerivatives(const CloudView& cloud,
   const auto use = pointsWithValues(columns, cloud.count);
   if (use.size() < least_samples)
     throw InvalidArgument("few_samples_for_derivatives", {{"samples", use.size()}});
+  checkMemoryOf(
+      "Derivatives", use.size(), derivativeBytes(static_cast<double>(use.size())));
   const auto frames = findFrames(columns);
   const SampledFields sampled =
       gatherFields(SampleSet::build(cloud.xyz(0),

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "interpolation/sph_density.h"
 
+#include "common/memory.h"
 #include "common/scalar_field.h"
 #include "interpolation/kernel_sums.h"
+#include "interpolation/memory_need.h"
 #include "neighbors/periodic_box.h"
 #include <pcl_uvol/common/exceptions.h>
 
@@ -103,6 +105,8 @@ computeSphDensity(const CloudView& cloud,
                   unsigned threads,
                   Report& report)
 {
+  checkMemoryOf(
+      "A density", cloud.count, sphDensityBytes(static_cast<double>(cloud.count)));
   std::vector<std::uint32_t> use(cloud.count);
   std::iota(use.begin(), use.end(), 0u);
   detail::SampledFields sampled;

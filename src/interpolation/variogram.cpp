@@ -202,7 +202,7 @@ classify(const std::vector<Pair>& pairs,
 
 /** Nugget and sill that fit best for a range, and how well. */
 struct LinearFit {
-  double nugget, sill, misfit;
+  double nugget, psill, misfit;
 };
 
 LinearFit
@@ -211,7 +211,8 @@ fitLevels(const EmpiricalVariogram& empirical,
           const Variogram& given,
           double range)
 {
-  const bool has_nugget = !std::isnan(given.nugget), has_sill = !std::isnan(given.sill);
+  const bool has_nugget = !std::isnan(given.nugget),
+             has_sill = !std::isnan(given.psill);
   double ww = 0.0, ws = 0.0, ss = 0.0, wv = 0.0, sv = 0.0;
   std::vector<double> shape(empirical.distance.size());
   for (std::size_t i = 0; i < shape.size(); ++i) {
@@ -227,11 +228,11 @@ fitLevels(const EmpiricalVariogram& empirical,
   std::vector<std::pair<double, double>> pairs;
   const double determinant = ww * ss - ws * ws;
   if (has_nugget && has_sill)
-    pairs.emplace_back(given.nugget, given.sill);
+    pairs.emplace_back(given.nugget, given.psill);
   else if (has_nugget)
     pairs.emplace_back(given.nugget, std::max(0.0, (sv - given.nugget * ws) / ss));
   else if (has_sill)
-    pairs.emplace_back(std::max(0.0, (wv - given.sill * ws) / ww), given.sill);
+    pairs.emplace_back(std::max(0.0, (wv - given.psill * ws) / ww), given.psill);
   else {
     pairs.emplace_back(0.0, std::max(0.0, sv / ss));
     pairs.emplace_back(std::max(0.0, wv / ww), 0.0);
@@ -240,16 +241,16 @@ fitLevels(const EmpiricalVariogram& empirical,
                          (ww * sv - ws * wv) / determinant);
   }
   LinearFit best{0.0, 0.0, std::numeric_limits<double>::infinity()};
-  for (const auto& [nugget, sill] : pairs) {
-    if (!(nugget >= 0.0 && sill >= 0.0))
+  for (const auto& [nugget, psill] : pairs) {
+    if (!(nugget >= 0.0 && psill >= 0.0))
       continue;
     double misfit = 0.0;
     for (std::size_t i = 0; i < shape.size(); ++i) {
-      const double rest = empirical.value[i] - nugget - sill * shape[i];
+      const double rest = empirical.value[i] - nugget - psill * shape[i];
       misfit += weights[i] * rest * rest;
     }
     if (misfit < best.misfit)
-      best = {nugget, sill, misfit};
+      best = {nugget, psill, misfit};
   }
   return best;
 }
@@ -259,13 +260,13 @@ fitLevels(const EmpiricalVariogram& empirical,
 double
 Variogram::covariance(double h) const
 {
-  return sill * correlation(kind, h / range);
+  return psill * correlation(kind, h / range);
 }
 
 double
 Variogram::covarianceSlope(double h) const
 {
-  return sill * correlationSlope(kind, h / range) / (range * range);
+  return psill * correlationSlope(kind, h / range) / (range * range);
 }
 
 Eigen::Index
@@ -350,7 +351,7 @@ fitVariogram(const EmpiricalVariogram& empirical, const Variogram& given)
                                     [](double value) { return value == 0.0; });
   if (is_level) { // a constant, or a single sample
     fitted.nugget = std::isnan(given.nugget) ? 0.0 : given.nugget;
-    fitted.sill = std::isnan(given.sill) ? 0.0 : given.sill;
+    fitted.psill = std::isnan(given.psill) ? 0.0 : given.psill;
     fitted.range = std::isnan(given.range) ? 1.0 : given.range;
     return fitted;
   }
@@ -383,7 +384,7 @@ fitVariogram(const EmpiricalVariogram& empirical, const Variogram& given)
     const LinearFit levels = fitLevels(empirical, weights, given, std::exp(best));
     fitted.range = std::exp(best);
     fitted.nugget = levels.nugget;
-    fitted.sill = levels.sill;
+    fitted.psill = levels.psill;
     double largest = 0.0;
     for (const double distance : empirical.distance)
       largest = std::max(largest, fitted.value(distance));

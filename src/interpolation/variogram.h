@@ -17,12 +17,12 @@ namespace pcl_uvol::detail {
 
 struct SampledFields;
 
-/** \brief Half the mean squared difference of two values: nugget + sill * (1 -
+/** \brief Half the mean squared difference of two values: nugget + psill * (1 -
  * correlation(h / range)). */
 struct PCL_UVOL_EXPORTS Variogram {
   VariogramKind kind = VariogramKind::Spherical;
   double nugget = 0.0; ///< of values that differ however close their samples are
-  double sill = 0.0;   ///< the partial sill: without the nugget
+  double psill = 0.0;  ///< the partial sill: without the nugget
   double range = 1.0;
 
   /** \brief The value of the part without the nugget.
@@ -37,7 +37,7 @@ struct PCL_UVOL_EXPORTS Variogram {
   double
   value(double h) const
   {
-    return h > 0.0 ? nugget + sill - covariance(h) : 0.0;
+    return h > 0.0 ? nugget + psill - covariance(h) : 0.0;
   }
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/held_fields.h"
 
+#include "common/numbers.h"
 #include "common/printable.h"
 #include "common/scalar_field.h"
 #include "io/files.h"
@@ -106,6 +107,15 @@ noteUnheldLabels(const std::string& path,
                       {{"path", path}, {"fields", fields}}});
 }
 
+void
+noteLostOrigin(const std::string& path,
+               const Dataset& dataset,
+               std::vector<Message>& losses)
+{
+  if (getEnding(path) == ".stl" && dataset.origin != std::array<double, 3>{})
+    losses.push_back({"stl_without_origin", {{"origin", joinNumbers(dataset.origin)}}});
+}
+
 } // namespace
 } // namespace io
 
@@ -115,6 +125,7 @@ describeLosses(const std::string& path, const Dataset& dataset)
   std::vector<Message> losses;
   io::noteFieldsLeftOut(path, dataset, losses);
   io::noteUnheldLabels(path, dataset, losses);
+  io::noteLostOrigin(path, dataset, losses);
   return losses;
 }
 

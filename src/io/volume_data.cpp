@@ -350,8 +350,8 @@ readValues(const std::string& path, const VolumeData& data, Volume& volume)
   catch (const IOError& error) {
     if (error.message().find(path) != std::string::npos)
       throw;
-    throw IOError("Cannot read '" + printable(path) +
-                  "', whose data lie elsewhere: " + error.message());
+    throw IOError("data_elsewhere",
+                  {{"path", printable(path)}, {"reason", error.message()}});
   }
 }
 

@@ -43,8 +43,8 @@ warnOfVague(const SurfaceFigures& figures, Report& report)
                all.area.error > large_error * all.area.value;
       });
   if (vague > 0)
-    report.warn("vague_measures",
-                {{"vague", vague}, {"surfaces", figures.isovalues.size()}});
+    report.warn("uncertain_measures",
+                {{"uncertain", vague}, {"surfaces", figures.isovalues.size()}});
 }
 
 /** Whether a closed surface has no volume and encloses no sample. */
@@ -113,19 +113,20 @@ warnOfSupport(const CloudView& vertices, Report& report)
     weak += is_weak && !(cap && cap->read(vertices.point(i)) > 0.0);
   }
   if (2 * weak > vertices.count)
-    report.warn("unconstrained_measures");
+    report.warn("unconstrained_measures", {{"percent", 100 * weak / vertices.count}});
 }
 
 void
 warnOfUncertain(const UncertainPieces& found, Report& report)
 {
   if (found.are_left_out && found.kept > 0)
-    report.warn("kept_unsure_pieces", {{"kept", found.kept}, {"pieces", found.pieces}});
+    report.warn("kept_uncertain_pieces",
+                {{"kept", found.kept}, {"pieces", found.pieces}});
   if (found.uncertain == 0)
     return;
   const auto words = describeNumbers({found.area.value, found.area.error});
-  report.warn("unsure_pieces",
-              {{"unsure", found.uncertain},
+  report.warn("uncertain_pieces",
+              {{"uncertain", found.uncertain},
                {"pieces", found.pieces},
                {"area", words[0]},
                {"error", words[1]},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "neighbors/periodic_box.h"
 
+#include "common/numbers.h"
 #include "neighbors/widest_gap.h"
 #include <pcl_uvol/common/exceptions.h>
 
@@ -62,6 +63,15 @@ countOutside(const CloudView& cloud, const PeriodicBox& box)
 }
 
 } // namespace
+
+void
+warnOfUnusedBox(const Dataset& samples,
+                const std::array<double, 3>& sides,
+                Report& report)
+{
+  if (!isPeriodic(sides) && isPeriodic(samples.box))
+    report.warn("box_in_file", {{"sides", joinNumbers(samples.box)}});
+}
 
 double
 PeriodicBox::toBox(double coordinate, std::size_t axis) const

@@ -49,6 +49,12 @@ isPeriodic(const std::array<double, 3>& sides)
 PCL_UVOL_EXPORTS void
 checkPeriodic(const std::array<double, 3>& sides);
 
+/** \brief Warn where the file of samples names a box, and nobody asks for one. */
+PCL_UVOL_EXPORTS void
+warnOfUnusedBox(const Dataset& samples,
+                const std::array<double, 3>& sides,
+                Report& report);
+
 /** \brief The smallest box around samples, by those coordinates that are finite. */
 struct PCL_UVOL_EXPORTS SampleExtents {
   std::array<double, 3> low{{infinity, infinity, infinity}};

@@ -11,6 +11,7 @@ SamplesInBox::SamplesInBox(Dataset& samples,
                            unsigned threads,
                            Report& report)
 {
+  warnOfUnusedBox(samples, sides, report);
   if (!pcl_uvol::isPeriodic(sides))
     return;
   PeriodicReach reach;

@@ -22,7 +22,8 @@ public:
    *
    * \param scale of the space that distances are measured in
    *
-   * \param report gets the count "images" and what findPeriodicBox() tells */
+   * \param report gets the count "images" and what warnOfUnusedBox() and
+   * findPeriodicBox() tell */
   SamplesInBox(Dataset& samples,
                const std::array<double, 3>& sides,
                const Eigen::Array3f& scale,

@@ -8,6 +8,7 @@
 #include "pipeline/isopoint_choice.h"
 #include "pipeline/isosurface_run.h"
 #include "pipeline/part_in_box.h"
+#include "pipeline/periodic_surface.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
@@ -23,7 +24,7 @@ namespace {
 void
 checkDistributed(const IsosurfacePipelineParameters& parameters)
 {
-  if (parameters.automatic_scale)
+  if (parameters.takesAutomaticScale())
     throw InvalidArgument("distributed_scale", {});
   if (detail::StretchAxes(parameters.rotation).areTurned())
     throw InvalidArgument("distributed_rotation", {});
@@ -64,6 +65,7 @@ public:
     checkDistributed(parameters);
     parameters.normals = NormalMethod::Edge; // of isopoints that have none yet
     findField(*given_, parameters);
+    warnOfUnusedBox(*given_, sidesOf(parameters), report);
     // Isopoints around one may belong to other processes: none is put back to its edge,
     // and the extraction leaves out contradicted ones.
     interpolation_ = parameters.isosurface.interpolation;

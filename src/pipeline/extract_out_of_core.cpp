@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/extract_out_of_core.h"
 
+#include "common/memory.h"
 #include "common/scalar_field.h"
 #include "common/stretch_axes.h"
 #include "isosurface/edge_ends.h"
@@ -100,14 +101,23 @@ extractOutOfCore(PointSource& points,
   surface.read = runOutOfCore(stage, std::move(read.samples), out_of_core, report);
   surface.read.sampling = toInput(surface.read.sampling, read.unit);
   SelfCommunicator alone;
-  const auto found = stage.take(alone, report);
+  auto found = stage.take(alone, report);
   surface.tally = stage.getTally();
+  std::size_t count = 0;
+  for (const auto& part : found)
+    count += part.size();
+  surface.isopoints.reserve(count);
   for (std::size_t i = 0; i < found.size(); ++i)
     for (const GlobalIsopoint& isopoint : found[i])
       surface.isopoints.push_back(toPointIso(isopoint, settings.isovalues[i]));
   const StepTimer timer(report, "fields");
   EdgeEnds ends = findEdgeEnds(found);
+  found = {};
   surface.edges = std::move(ends.edges);
+  checkMemoryOf("The fields of a surface",
+                ends.points.size(),
+                static_cast<double>(points.getHeader().cloud.point_step) *
+                    static_cast<double>(ends.points.size()));
   points.seek(0);
   points.readRows(ends.points, surface.samples);
   return surface;
@@ -127,7 +137,7 @@ public:
   void
   enter(IsosurfacePipelineParameters& parameters, Report&) override
   {
-    if (parameters.smooth || parameters.automatic_scale || parameters.mesh ||
+    if (parameters.smooth || parameters.takesAutomaticScale() || parameters.mesh ||
         parameters.fill_gaps || parameters.outside_value ||
         parameters.validation.folds > 0 || (parameters.periodic > 0.0).any() ||
         detail::StretchAxes(parameters.rotation).areTurned() ||
@@ -180,6 +190,7 @@ runPipelineOutOfCore(PointSource& points,
 {
   Report report;
   report.progress = progress;
+  const MemoryLimit limit(out_of_core.max_memory);
   SamplesOnDisk samples(points, out_of_core);
   return runIsosurface(samples, parameters, out_of_core.threads, std::move(report));
 }

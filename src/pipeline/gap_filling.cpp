@@ -293,7 +293,7 @@ FilledGaps::takeVariogram()
   const Variogram variogram = field_->findVariogram(0)->model;
   summary_.range = variogram.range;
   summary_.nugget = variogram.nugget;
-  summary_.sill = variogram.sill;
+  summary_.psill = variogram.psill;
 }
 
 void
@@ -351,7 +351,7 @@ FilledGaps::krigeComposites(const IsosurfaceParameters& parameters,
                        .all,
                    {kriging.kriging.variogram, nan, nan, nan});
   kriging.kriging.nugget = fitted.nugget;
-  kriging.kriging.sill = fitted.sill;
+  kriging.kriging.psill = fitted.psill;
   kriging.kriging.range = sampled.samples->getUnit().toInput(fitted.range);
   field_ = std::make_unique<FieldInterpolator>(
       viewOf(composites.cloud), every, kriging, threads, own);

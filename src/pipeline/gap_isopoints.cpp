@@ -90,7 +90,7 @@ warnOfDoubt(const pcl::PointCloud<PointIso>& isopoints,
     return;
   const float median = computeMedian(of_predicted);
   if (!(median >= least_confidence))
-    report.warn("guess_in_gaps", {{"percent", static_cast<int>(100.0f * median)}});
+    report.warn("unconstrained_gaps", {{"percent", static_cast<int>(100.0f * median)}});
 }
 
 } // namespace
@@ -170,7 +170,7 @@ FilledGaps::judge(const IsosurfacePipelineParameters& parameters,
   const auto is_sure = reliable_fits_->find(roots, threads);
   const auto support = nearest_->interpolate(roots, threads, own).support;
   const auto thin = findThin(roots, threads, nullptr);
-  const double variance = summary_.nugget + summary_.sill;
+  const double variance = summary_.nugget + summary_.psill;
   const std::size_t measured = samples_->cloud.width;
   const PointIso* const first = isopoints.data();
   std::vector<std::uint8_t> stays(isopoints.size(), 1);

@@ -353,19 +353,6 @@ scoreHeldOut(const std::vector<HeldOutSample>& samples)
   return score;
 }
 
-std::vector<ValidationScore>
-scoreHeldOut(const PipelineInput& input,
-             const Folds& folds,
-             const ExtractPart& extract,
-             unsigned threads,
-             Report& report)
-{
-  std::vector<ValidationScore> scores;
-  for (const auto& of_isovalue : holdOut(input, folds, extract, threads, report))
-    scores.push_back(scoreHeldOut(of_isovalue));
-  return scores;
-}
-
 /** Samples beyond the error, and their share on the right side, below which errors
  * cannot be trusted: of dense samples it is 0.98 and more. @{ */
 constexpr std::size_t least_beyond_error = 30;
@@ -379,27 +366,56 @@ warnOfScores(const std::vector<ValidationScore>& scores,
              Report& report)
 {
   const bool lie_all_around = sampling && sampling->most == LocalDimension::Volume;
-  const auto warn_where = [&](const auto& holds, const Message& message) {
-    if (std::any_of(scores.begin(), scores.end(), holds))
-      report.warnings.push_back(message);
+  // Of several isovalues, the worst one is told.
+  const auto warn_worst = [&](const auto& excess, const auto& describe) {
+    const auto worst = std::max_element(
+        scores.begin(), scores.end(), [&](const auto& a, const auto& b) {
+          return excess(a).value_or(0.0) < excess(b).value_or(0.0);
+        });
+    if (worst != scores.end() && excess(*worst))
+      report.warnings.push_back(describe(*worst));
   };
-  warn_where(
-      [](const ValidationScore& score) {
-        return score.side.predicted < score.side.base;
+  const auto percent = [](double share) { return std::round(100.0 * share); };
+  const auto beyond = [](double excess) {
+    return excess > 0.0 ? std::optional(excess) : std::nullopt;
+  };
+  const auto with_shares = [&](Message message, const ValidationScore& score) {
+    message.values.insert(
+        message.values.begin(),
+        {{"surface", percent(score.side.predicted)}, {"samples", score.covered}});
+    return message;
+  };
+  warn_worst(
+      [&](const ValidationScore& score) {
+        return beyond(score.side.base - score.side.predicted);
       },
-      {"surface_tells_nothing", {}});
-  warn_where(
-      [](const ValidationScore& score) {
-        return score.side.nearest - score.side.predicted > score.side_error;
+      [&](const ValidationScore& score) {
+        return with_shares(
+            {"worse_than_baseline", {{"baseline", percent(score.side.base)}}}, score);
+      });
+  warn_worst(
+      [&](const ValidationScore& score) {
+        return beyond(score.side.nearest - score.side.predicted - score.side_error);
       },
-      lie_all_around ? Message("samples_tell_better", {})
-                     : Message("lines_tell_better", listRemedies(parameters)));
-  warn_where(
-      [](const ValidationScore& score) {
-        return score.beyond_error >= least_beyond_error &&
-               score.side_beyond_error < trusted_side;
+      [&](const ValidationScore& score) {
+        std::vector<MessageValue> values{{"nearest", percent(score.side.nearest)}};
+        if (lie_all_around)
+          return with_shares({"worse_than_nearest_sample", std::move(values)}, score);
+        for (MessageValue& remedy : listRemedies(parameters))
+          values.push_back(std::move(remedy));
+        return with_shares({"worse_than_nearest_on_lines", std::move(values)}, score);
+      });
+  warn_worst(
+      [&](const ValidationScore& score) {
+        return score.beyond_error >= least_beyond_error
+                   ? beyond(trusted_side - score.side_beyond_error)
+                   : std::nullopt;
       },
-      {"small_errors", {}});
+      [&](const ValidationScore& score) {
+        return Message{"small_errors",
+                       {{"samples", score.beyond_error},
+                        {"percent", percent(1.0 - score.side_beyond_error)}}};
+      });
 }
 
 Folds
@@ -415,6 +431,22 @@ makeFolds(const CloudView& cloud,
   default:
     return Folds::byRandom(cloud.count, parameters.folds);
   }
+}
+
+HoldOutTest::HoldOutTest(const PipelineInput& input, unsigned threads)
+    : input_(input)
+    , folds_(
+          makeFolds(viewOf(input.samples->cloud), input.parameters.validation, threads))
+    , threads_(threads)
+{
+}
+
+void
+HoldOutTest::leave(const ExtractPart& extract, IsosurfaceResult& result) const
+{
+  for (const auto& samples : holdOut(input_, folds_, extract, threads_, result.report))
+    result.validation.push_back(scoreHeldOut(samples));
+  warnOfScores(result.validation, input_.parameters, result.sampling, result.report);
 }
 
 } // namespace pcl_uvol

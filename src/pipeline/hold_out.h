@@ -56,14 +56,6 @@ holdOut(const PipelineInput& input,
 PCL_UVOL_EXPORTS ValidationScore
 scoreHeldOut(const std::vector<HeldOutSample>& samples);
 
-/** \brief As holdOut(), one score per isovalue. */
-std::vector<ValidationScore>
-scoreHeldOut(const PipelineInput& input,
-             const Folds& folds,
-             const ExtractPart& extract,
-             unsigned threads,
-             Report& report);
-
 /** \brief Say so where a surface tells the side of samples that were left out worse
  * than always saying the same does, or than the nearest sample does by more than the
  * standard error of the difference.
@@ -79,5 +71,23 @@ PCL_UVOL_EXPORTS Folds
 makeFolds(const CloudView& cloud,
           const ValidationParameters& parameters,
           unsigned threads);
+
+/** \brief The hold-out test of a pipeline. */
+class HoldOutTest {
+public:
+  /** \brief Divides the samples.
+   * \param input with the field and the scale that are taken, before gaps are filled
+   * \throws InvalidArgument for a field of folds that is none */
+  HoldOutTest(const PipelineInput& input, unsigned threads);
+
+  /** \brief Test the surface, and warn of what the scores say of it. */
+  void
+  leave(const ExtractPart& extract, IsosurfaceResult& result) const;
+
+private:
+  PipelineInput input_;
+  Folds folds_;
+  unsigned threads_;
+};
 
 } // namespace pcl_uvol

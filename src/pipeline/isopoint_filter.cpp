@@ -140,7 +140,7 @@ warnOfWeakSupport(const SupportCounts& counts,
                   const std::optional<SamplingSummary>& sampling,
                   Report& report)
 {
-  Message guess("guessed_isopoints", listRemedies(parameters));
+  Message guess("unconstrained_isopoints", listRemedies(parameters));
   guess.values.emplace_back("validate", parameters.validation.folds == 0);
   guess.values.emplace_back("bridged", !parameters.drop_bridged && !parameters.mesh);
   if (const auto told = role == SurfaceRole::ClusterBorder

@@ -28,7 +28,7 @@ resolve(const PipelineInput& input,
 {
   IsosurfacePipelineParameters parameters = input.parameters;
   findField(*input.samples, parameters);
-  if (!parameters.automatic_scale)
+  if (!parameters.takesAutomaticScale())
     return parameters.isosurface;
   Report own;
   choice = chooseScale(viewOf(input.samples->cloud),
@@ -90,23 +90,6 @@ estimateBytes(const PipelineInput& input)
                        input.parameters);
 }
 
-/** Runs the pipeline on parts of its samples: for a hold-out test. */
-ExtractPart
-extractParts(const PipelineInput& input, unsigned threads)
-{
-  IsosurfacePipeline pipeline;
-  pipeline.setInput(input.samples);
-  pipeline.setNumberOfThreads(threads);
-  return [pipeline](const IsosurfacePipelineParameters& parameters,
-                    const pcl::IndicesPtr& use,
-                    const ProgressCallback& progress) mutable {
-    pipeline.setParameters(parameters);
-    pipeline.setIndices(use);
-    pipeline.setProgressCallback(progress);
-    return pipeline.run();
-  };
-}
-
 /** All samples in memory: their axes may be turned, their gaps filled and their box
  * repeat, and some may be left out to test the surface of the others. */
 class SamplesInMemory : public SampleStore {
@@ -126,13 +109,13 @@ public:
   enter(IsosurfacePipelineParameters& parameters, Report& report) override
   {
     checkMemoryOf("An isosurface", countPoints(input_), estimateBytes(input_));
+    warnOfUnusedBox(*given_, sidesOf(input_.parameters), report);
     closeOutside(input_, threads_, report);
     axes_.emplace(input_);
     input_.parameters.isosurface = resolve(input_, threads_, scale_choice_);
-    const ValidationParameters& validation = input_.parameters.validation;
-    if (validation.folds > 0) // a field that is none fails early
-      folds_ = makeFolds(viewOf(input_.samples->cloud), validation, threads_);
-    measured_ = input_;
+    if (input_.parameters.validation.folds > 0)
+      hold_out_.emplace(input_, threads_);
+    measured_ = input_.samples;
     if (input_.parameters.fill_gaps)
       gaps_ = std::make_unique<detail::FilledGaps>(input_, threads_, report);
     box_.emplace(input_, threads_, report);
@@ -173,27 +156,40 @@ public:
     box_->leave(parameters, result);
     if (gaps_)
       result.gaps = gaps_->getSummary();
-    if (folds_) {
-      result.validation = scoreHeldOut(measured_,
-                                       *folds_,
-                                       extractParts(measured_, threads_),
-                                       threads_,
-                                       result.report);
-      warnOfScores(
-          result.validation, measured_.parameters, result.sampling, result.report);
-    }
+    if (hold_out_)
+      hold_out_->leave(
+          [this](const auto& of_part, const auto& use, const auto& progress) {
+            return extractPart(of_part, use, progress);
+          },
+          result);
     axes_->leave(result);
   }
 
 private:
+  /** The same steps with some of the samples. */
+  IsosurfaceResult
+  extractPart(const IsosurfacePipelineParameters& parameters,
+              const pcl::IndicesPtr& use,
+              const ProgressCallback& progress) const
+  {
+    IsosurfaceExtraction<pcl::PCLPointCloud2> extraction;
+    extraction.setInputCloud(shareCloud({measured_, use, parameters}));
+    extraction.setIndices(use);
+    SamplesInMemory part({measured_, use, parameters}, extraction, threads_);
+    Report report;
+    report.progress = progress;
+    return runIsosurface(part, parameters, threads_, std::move(report));
+  }
+
   const std::shared_ptr<const Dataset> given_;
-  PipelineInput input_, measured_; ///< now, and before gaps were filled
+  PipelineInput input_;
+  std::shared_ptr<const Dataset> measured_; ///< before gaps were filled
   IsosurfaceExtraction<pcl::PCLPointCloud2>& extraction_;
   unsigned threads_;
   SelfCommunicator alone_;
   std::optional<TurnedAxes> axes_;
   std::optional<ScaleChoice> scale_choice_;
-  std::optional<Folds> folds_;
+  std::optional<HoldOutTest> hold_out_;
   std::unique_ptr<detail::FilledGaps> gaps_;
   std::optional<RepeatedBox> box_;
 };

@@ -2,7 +2,6 @@
 #include "common/parameter_json.h"
 #include "common/stretch_axes.h"
 #include "neighbors/periodic_box.h"
-#include "pipeline/periodic_surface.h"
 #include "pipeline/pipeline_input.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>
@@ -54,17 +53,19 @@ checkParameters(const IsosurfacePipelineParameters& parameters)
   if (parameters.outside_value && parameters.fill_gaps)
     throw InvalidArgument("gaps_beside_value_outside", {});
   const bool is_turned = detail::StretchAxes(parameters.rotation).areTurned();
-  checkPeriodic(sidesOf(parameters));
-  if (isPeriodic(sidesOf(parameters)) && is_turned)
+  const Eigen::Array3d& box = parameters.periodic;
+  checkPeriodic({{box[0], box[1], box[2]}});
+  const bool is_periodic = (box > 0.0).any();
+  if (is_periodic && is_turned)
     throw InvalidArgument("turned_periodic_box", {});
-  if (isPeriodic(sidesOf(parameters)) && parameters.validation.folds > 0)
+  if (is_periodic && parameters.validation.folds > 0)
     throw InvalidArgument("hold_out_in_periodic_box", {});
-  if (isPeriodic(sidesOf(parameters)) && parameters.fill_gaps)
+  if (is_periodic && parameters.fill_gaps)
     throw InvalidArgument("gaps_in_periodic_box", {});
-  if (isPeriodic(sidesOf(parameters)) && parameters.outside_value)
+  if (is_periodic && parameters.outside_value)
     throw InvalidArgument("value_outside_of_periodic_box", {});
   if (parameters.periodic_mesh == PeriodicMesh::Weld &&
-      (!parameters.mesh || !isPeriodic(sidesOf(parameters))))
+      (!parameters.mesh || !is_periodic))
     throw InvalidArgument("nothing_to_weld", {});
   if (!parameters.mesh)
     return;

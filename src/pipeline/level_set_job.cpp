@@ -51,12 +51,13 @@ runLevelSet(const std::shared_ptr<const Dataset>& samples,
     taken.scale = result.scale_choice->scale;
   }
 
+  warnOfUnusedBox(*samples, request.periodic, result.report);
   std::shared_ptr<const Dataset> input = samples;
   std::optional<SamplesInBox> boxed;
   if (isPeriodic(request.periodic)) {
     const auto imaged = std::make_shared<Dataset>(*samples);
     boxed.emplace(*imaged, request.periodic, taken.scale, threads, result.report);
-    result.box = boxed->getBox();
+    result.box = toSampleBox(boxed->getBox(), samples->origin);
     input = imaged;
   }
   LevelSetParameters parameters = taken;
@@ -87,7 +88,7 @@ runLevelSet(const std::shared_ptr<const Dataset>& samples,
     if (const auto guesses =
             describeWeakSupport(findSupportCounts(evolution.getTally()),
                                 result.sampling,
-                                {"smoothed_guesses", {}}))
+                                {"unconstrained_level_set", {}}))
       result.report.warnings.push_back(*guesses);
   result.report.progress = nullptr; // which is the caller's
   return result;

@@ -7,6 +7,7 @@
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/interpolation/cross_validation.h>
 #include <pcl_uvol/levelset/level_set_parameters.h>
+#include <pcl_uvol/pipeline/isosurface_result.h>
 
 #include <array>
 #include <cstddef>
@@ -44,8 +45,8 @@ struct PCL_UVOL_EXPORTS SmoothedSamples {
   LevelSetSummary summary;
   SamplingSummary sampling;
   std::optional<ScaleChoice> scale_choice;
-  std::optional<PeriodicBox> box; ///< that the samples lie in
-  Report report;                  ///< of LevelSetEvolution, and with a box "images"
+  std::optional<SampleBox> box; ///< that the samples repeat in
+  Report report;                ///< of LevelSetEvolution, and with a box "images"
 };
 
 /** \brief Gets the surface after some steps, with all fields of the samples. */

@@ -22,10 +22,6 @@ namespace {
 /** A sample in the tree, with its value. */
 constexpr double tree_bytes = 60.0;
 
-/** An isopoint and its edge, and twice the isopoint while it is joined with its fields,
- * besides these. */
-constexpr double isopoint_bytes = 3.0 * sizeof(PointIso) + sizeof(IsoEdge);
-
 /** A sample while gaps are filled: in the trees of two kriged fields. */
 constexpr double gap_bytes = 150.0;
 
@@ -98,7 +94,7 @@ pipelineBytes(double samples,
                                 static_cast<double>(parameters.normal_neighbors));
   const double finishing =
       tree_bytes * samples + of_one +
-      static_cast<double>(isovalues) * (isopoint_bytes + point_step) * isopoints;
+      surfaceFieldsBytes(static_cast<double>(isovalues) * isopoints, point_step);
   return bytes + std::max(extracting, finishing);
 }
 

@@ -113,6 +113,7 @@ PartInBox::finish(const StageSamples& read,
 {
   if (!isPeriodic(box_.sides))
     return;
+  result.box = toSampleBox(box_, part_->origin);
   returnPoints(cut_, box_, part_->origin, result);
   // Images lie in the pieces of others as well: the first process tells of all samples.
   std::vector<std::uint64_t> counts{read.samples, read.duplicates};

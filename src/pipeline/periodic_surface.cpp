@@ -126,6 +126,17 @@ listPlaces(const Dataset& points, std::size_t first)
   return places;
 }
 
+SampleBox
+toSampleBox(const PeriodicBox& box, const std::array<double, 3>& origin)
+{
+  SampleBox told;
+  told.sides = box.sides;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (box.sides[axis] > 0.0)
+      told.low[axis] = box.low[axis] + origin[axis];
+  return told;
+}
+
 std::uint64_t
 countPlaces(std::vector<ImagePlace> places)
 {
@@ -195,6 +206,7 @@ RepeatedBox::leave(const IsosurfacePipelineParameters& parameters,
 {
   if (!images_)
     return;
+  result.box = toSampleBox(box_, samples_->origin);
   const std::uint64_t images = images_->image_of.size(),
                       places = countPlaces(
                           listPlaces(images_->samples, images_->countOwn()));

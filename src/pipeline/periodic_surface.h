@@ -22,6 +22,12 @@ sidesOf(const IsosurfacePipelineParameters& parameters)
   return {{sides[0], sides[1], sides[2]}};
 }
 
+/** \brief A box as it is told.
+ *
+ * \param origin of the coordinates that it has */
+PCL_UVOL_EXPORTS SampleBox
+toSampleBox(const PeriodicBox& box, const std::array<double, 3>& origin);
+
 /** \brief The points that have a finite value: those that images are of.
  *
  * \param use null: all points */

@@ -104,14 +104,15 @@ describeWeakBorder(const SupportCounts& counts)
   const std::size_t all = counts.at_border + counts.beside_gaps + counts.guessed;
   if (2 * all <= counts.known)
     return std::nullopt;
-  return withPercent({"guessed_border", {}}, all, counts.known);
+  return withPercent({"unconstrained_border", {}}, all, counts.known);
 }
 
 std::vector<MessageValue>
 listRemedies(const IsosurfacePipelineParameters& parameters)
 {
   return {{"scale",
-           !parameters.automatic_scale && (parameters.isosurface.scale == 1.0f).all()},
+           !parameters.takesAutomaticScale() &&
+               (parameters.isosurface.scale == 1.0f).all()},
           {"gaps", !parameters.fill_gaps}};
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "render/gaussian_splats.h"
 
+#include "common/numbers.h"
 #include "common/records.h"
 #include "surface/splat_input.h"
 #include <pcl_uvol/render/color_map.h>
@@ -96,20 +97,29 @@ toGaussians(const pcl::PointCloud<PointSplat>& splats, const std::vector<Rgba>& 
   return cloud;
 }
 
-pcl::PCLPointCloud2
-makeGaussians(const CloudView& splats,
+Dataset
+makeGaussians(const Dataset& splats,
               const std::string& field,
-              const ColorMapping& mapping)
+              const ColorMapping& mapping,
+              Report& report)
 {
+  const CloudView view = viewOf(splats.cloud);
+  warnOfLogarithms(view, field, mapping, report);
   Report counted_before;
-  const Splats found = readSplats(splats, counted_before);
+  const Splats found = readSplats(view, counted_before);
   std::vector<Rgba> colors(found.cloud.size(), toRgba(Material().color));
   if (!field.empty()) {
-    const PointColors all = colorPoints(splats, field, mapping);
+    const PointColors all = colorPoints(view, field, mapping);
     for (std::size_t i = 0; i < colors.size(); ++i)
       colors[i] = all.colors[found.sources[i]];
   }
-  return toGaussians(found.cloud, colors);
+  if (splats.origin != std::array<double, 3>{})
+    report.warn("gaussians_without_origin", {{"origin", joinNumbers(splats.origin)}});
+  Dataset gaussians = withoutCloud(splats);
+  gaussians.cloud = toGaussians(found.cloud, colors);
+  gaussians.origin = {};
+  gaussians.double_coordinates = false;
+  return gaussians;
 }
 
 } // namespace pcl_uvol

@@ -3,9 +3,10 @@
 #pragma once
 
 #include "render/point_colors.h"
-#include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/point_types.h>
+#include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/render/color_map.h>
 
 #include <pcl/PCLPointCloud2.h>
@@ -27,13 +28,16 @@ namespace pcl_uvol {
 PCL_UVOL_EXPORTS pcl::PCLPointCloud2
 toGaussians(const pcl::PointCloud<PointSplat>& splats, const std::vector<Rgba>& colors);
 
-/** \brief The splats of a cloud as Gaussians in the colours of a field.
+/** \brief Splats as Gaussians in the colours of a field, without their origin.
  * \param field a scalar field, "rgb", or "" for the colour of the material
  * \param mapping of its values
+ * \param report gets warnings of an origin that is lost and of values that have no
+ * logarithm
  * \throws InvalidArgument as colorPoints */
-PCL_UVOL_EXPORTS pcl::PCLPointCloud2
-makeGaussians(const CloudView& splats,
+PCL_UVOL_EXPORTS Dataset
+makeGaussians(const Dataset& splats,
               const std::string& field,
-              const ColorMapping& mapping);
+              const ColorMapping& mapping,
+              Report& report);
 
 } // namespace pcl_uvol

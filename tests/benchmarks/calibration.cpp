@@ -204,6 +204,7 @@ printLines(std::uint64_t n, std::uint64_t seed)
     print(", fits", surface, hasFit);
     print(", on edges", surface, isOnEdge);
     parameters.fill_gaps = true;
+    parameters.automatic_scale = false;
     print(", filled", extract(*cloud, field.isovalue, parameters), isPredicted);
   }
 }

@@ -96,7 +96,7 @@ TEST(Message, ParametersHaveValues)
               "Try: where to select one, for example where=\"experiment=1\".",
               "Try: -where to select one, for example -where \"experiment=1\".",
               "Try: Where to select one, for example Where=\"experiment=1\".");
-  expectNames(Message("unconstrained_measures", {}),
+  expectNames(Message("unconstrained_measures", {{"percent", 60}}),
               "Try: block=dx,dy,dz for",
               "Try: -block dx,dy,dz for",
               "Try: Block=dx,dy,dz for");
@@ -135,7 +135,7 @@ TEST(Message, ListWhatMayBeTried)
     for (const bool scale : {false, true})
       for (const bool gaps : {false, true}) {
         SCOPED_TRACE(testing::Message() << validate << scale << gaps);
-        const Message message("guessed_isopoints",
+        const Message message("unconstrained_isopoints",
                               {{"percent", 40},
                                {"validate", validate},
                                {"scale", scale},
@@ -160,9 +160,13 @@ TEST(Message, ListWhatMayBeTried)
 TEST(Message, ChoicesHoldChoices)
 {
   const auto advise = [](bool scale, bool gaps) {
-    const std::string text =
-        Message("lines_tell_better", {{"scale", scale}, {"gaps", gaps}})
-            .text(ParameterNames::Options);
+    const std::string text = Message("worse_than_nearest_on_lines",
+                                     {{"surface", 60},
+                                      {"samples", 100},
+                                      {"nearest", 70},
+                                      {"scale", scale},
+                                      {"gaps", gaps}})
+                                 .text(ParameterNames::Options);
     return text.substr(text.find("Use "));
   };
   const std::string use = "Use only the crossings with lines.";

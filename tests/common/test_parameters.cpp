@@ -48,6 +48,8 @@ change(T& value)
     value += "\"|v,é|";
   else if constexpr (std::is_same_v<T, std::optional<double>>)
     value = 0.125;
+  else if constexpr (std::is_same_v<T, std::optional<bool>>)
+    value = !value.value_or(true);
   else if constexpr (std::is_same_v<T, std::optional<pcl_uvol::MeshingParameters>>)
     value.emplace();
   else if constexpr (std::is_same_v<T, std::vector<double>>)

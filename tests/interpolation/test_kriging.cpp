@@ -146,7 +146,7 @@ TEST(Kriging, AnisotropyIsAMetric)
     turned_places.push_back(turn(place));
   auto parameters = krigingBy(VariogramKind::Exponential);
   parameters.kriging.nugget = 0.01;
-  parameters.kriging.sill = 0.2;
+  parameters.kriging.psill = 0.2;
   parameters.kriging.range = 0.5;
   const auto even =
       interpolate(sampleFunctions(stretched, {franke}), parameters, places);
@@ -173,7 +173,7 @@ TEST(Kriging, TrendsGoOnWhereSamplesEnd)
   const Function linear = [](const Vector3d& x) { return 10.0 * x[0] - x[2]; };
   const auto samples = sampleFunctions(randomPlaces(1000, 33), {linear});
   auto parameters = krigingBy(VariogramKind::Exponential);
-  parameters.kriging.sill = 0.1;
+  parameters.kriging.psill = 0.1;
   parameters.kriging.range = 0.2;
   parameters.kriging.nugget = 0.0;
   parameters.kriging.trend = 1;
@@ -192,7 +192,7 @@ TEST(Kriging, OctantsLookAround)
     at.push_back(place);
   auto parameters = krigingBy(VariogramKind::Exponential);
   parameters.kriging.nugget = 0.0;
-  parameters.kriging.sill = 1.0;
+  parameters.kriging.psill = 1.0;
   parameters.kriging.range = 1.0;
   parameters.kriging.k = 16;
   const SimulatedField field(1.0, 3);
@@ -215,7 +215,7 @@ TEST(Kriging, BlocksAreMeansOfTheirPlaces)
   const auto samples = sampleFunctions(randomPlaces(30, 41), {franke});
   auto parameters = krigingBy(VariogramKind::Exponential);
   parameters.kriging.nugget = 0.01;
-  parameters.kriging.sill = 1.0;
+  parameters.kriging.psill = 1.0;
   parameters.kriging.range = 0.5;
   parameters.kriging.ratios[1] = 0.5f;
   parameters.scale = {1.0f, 2.0f, 3.0f};
@@ -249,7 +249,7 @@ TEST(Kriging, RefusesImpossibleVariograms)
     EXPECT_THROW(interpolate(samples, parameters, {{0.5, 0.5, 0.5}}), InvalidArgument);
   };
   refuses([](auto& kriging) { kriging.nugget = -1.0; });
-  refuses([](auto& kriging) { kriging.sill = -1.0; });
+  refuses([](auto& kriging) { kriging.psill = -1.0; });
   refuses([](auto& kriging) { kriging.range = 0.0; });
   refuses([](auto& kriging) { kriging.k = 0; });
   refuses([](auto& kriging) { kriging.k = 1000; });

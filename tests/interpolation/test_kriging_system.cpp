@@ -81,13 +81,13 @@ krige(const Case& at,
     for (Eigen::Index j = 0; j < n; ++j) {
       const Real h = (at.offsets.row(i) - at.offsets.row(j)).cast<Real>().norm();
       matrix(i, j) =
-          variogram.sill * correlationOf(variogram.kind, h / variogram.range) +
+          variogram.psill * correlationOf(variogram.kind, h / variogram.range) +
           (i == j ? variogram.nugget : 0.0);
     }
     for (Eigen::Index k = 0; k < places.rows(); ++k) {
       const Real h = (at.offsets.row(i) - places.row(k)).cast<Real>().norm();
       right[i] +=
-          variogram.sill * correlationOf(variogram.kind, h / variogram.range) / count;
+          variogram.psill * correlationOf(variogram.kind, h / variogram.range) / count;
     }
     const auto terms = trendAt(at.offsets.row(i).transpose(), trend);
     for (Eigen::Index k = 0; k < p; ++k)
@@ -189,13 +189,13 @@ TEST(Variogram, FitsFindWhatIsThere)
     }
     const Variogram fitted = fitVariogram(empirical, {word.value, nan, nan, nan});
     EXPECT_NEAR(fitted.nugget, truth.nugget, 1e-3) << word.word;
-    EXPECT_NEAR(fitted.sill, truth.sill, 1e-3);
+    EXPECT_NEAR(fitted.psill, truth.psill, 1e-3);
     EXPECT_NEAR(fitted.range, truth.range, 1e-3);
     // What is given stays.
     const Variogram given = fitVariogram(empirical, {word.value, 0.3, nan, 0.4});
     EXPECT_EQ(given.nugget, 0.3);
     EXPECT_DOUBLE_EQ(given.range, 0.4);
-    EXPECT_NEAR(given.sill, truth.sill, 1e-9);
+    EXPECT_NEAR(given.psill, truth.psill, 1e-9);
   }
 }
 

@@ -227,7 +227,7 @@ TEST(AnswerSummary, WarnsOnceWhereMostIsUncertain)
                         FieldSupport::Reduced}),
             {"weak_support", {{"weak", 6}, {"queries", 10}}});
   expectOne(warningsOf(answersOf(fine, std::vector<double>(10, 0.51)), {}),
-            {"unsure_values", {{"unsure", 10}, {"values", 10}, {"field", "f0"}}});
+            {"uncertain_values", {{"uncertain", 10}, {"values", 10}, {"field", "f0"}}});
   std::vector<double> wild = fine;
   wild[3] = 2.01;
   wild[4] = -1.01;

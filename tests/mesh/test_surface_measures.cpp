@@ -351,8 +351,8 @@ TEST(SurfaceMeasures, LeavesOutPiecesThatAreKnownNoBetterThanTheirSize)
   EXPECT_EQ(2u, all.pieces.size());
   ASSERT_FALSE(measures.getReport().warnings.empty());
   const Message told = measures.getReport().warnings.back();
-  EXPECT_EQ("unsure_pieces", told.code);
-  EXPECT_EQ(1.0, uvol_test::numberOf(told, "unsure"));
+  EXPECT_EQ("uncertain_pieces", told.code);
+  EXPECT_EQ(1.0, uvol_test::numberOf(told, "uncertain"));
   EXPECT_EQ(2.0, uvol_test::numberOf(told, "pieces"));
   EXPECT_EQ(0.0, uvol_test::numberOf(told, "are_left_out"));
   SurfaceMeasuresParameters parameters;

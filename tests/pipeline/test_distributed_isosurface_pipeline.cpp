@@ -151,7 +151,7 @@ TEST(DistributedIsosurfacePipeline, TellsOfGuessesAsOneProcessDoes)
         uvol_test::runPipeline(takePart(lines, 0, lines.size()), parameters).report;
     EXPECT_EQ(is_linear ? 2048u : 0u, expected.getCount("examined"));
     ASSERT_EQ(1u, expected.warnings.size());
-    EXPECT_EQ("guessed_isopoints", expected.warnings[0].code);
+    EXPECT_EQ("unconstrained_isopoints", expected.warnings[0].code);
     EXPECT_GE(uvol_test::numberOf(expected.warnings[0], "percent"), 50.0);
     uvol_test::runRanks(3, [&](pcl_uvol::Communicator& communicator) {
       const std::size_t rank = communicator.rank(), size = lines.size();

@@ -71,6 +71,7 @@ makeParameters(bool fills)
   parameters.isosurface.field = "intensity";
   parameters.isosurface.isovalues = {0.0};
   parameters.fill_gaps = fills;
+  parameters.automatic_scale = false;
   return parameters;
 }
 
@@ -86,8 +87,9 @@ TEST(GapFilling, IsAdvisedAsOtherOptionsThatWereNotGiven)
   for (const bool is_scaled : {false, true}) {
     if (is_scaled)
       parameters.isosurface.scale = {1.0f, 1.0f, 2.0f};
-    const auto told = uvol_test::findWarning(
-        uvol_test::runPipeline(makeProfiles(20), parameters), "guessed_isopoints");
+    const auto told =
+        uvol_test::findWarning(uvol_test::runPipeline(makeProfiles(20), parameters),
+                               "unconstrained_isopoints");
     ASSERT_TRUE(told) << is_scaled;
     EXPECT_EQ(1.0, numberOf(*told, "validate"));
     EXPECT_EQ(is_scaled ? 0.0 : 1.0, numberOf(*told, "scale"));
@@ -577,7 +579,7 @@ TEST(GapFilling, WarnsWhereKrigingExplainsLittle)
                                        4.0 * (random.uniform() - 0.5)));
   setField(*samples, "intensity", noise);
   const auto result = uvol_test::runPipeline(samples, makeParameters(true));
-  const auto told = uvol_test::findWarning(result, "guess_in_gaps");
+  const auto told = uvol_test::findWarning(result, "unconstrained_gaps");
   ASSERT_TRUE(told);
   EXPECT_LT(numberOf(*told, "percent"), 50.0);
 }
@@ -596,8 +598,8 @@ TEST(GapFilling, FindsTheRangeOfAFieldWithSpikes)
                                         (random.uniform() < 0.02 ? 40.0 : 1.0)));
   setField(*samples, "intensity", spiked);
   const auto result = uvol_test::runPipeline(samples, makeParameters(true));
-  EXPECT_LT(clean.gaps->nugget, 0.1 * clean.gaps->sill);
-  EXPECT_LT(result.gaps->nugget, 0.1 * result.gaps->sill);
+  EXPECT_LT(clean.gaps->nugget, 0.1 * clean.gaps->psill);
+  EXPECT_LT(result.gaps->nugget, 0.1 * result.gaps->psill);
 }
 
 TEST(GapFilling, RefusesWhatItCannotFill)

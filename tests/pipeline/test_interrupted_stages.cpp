@@ -89,6 +89,7 @@ TEST(InterruptedStages, EveryStepOfFilledGaps)
   IsosurfacePipelineParameters parameters;
   parameters.isosurface.isovalues = {samples.isovalue};
   parameters.fill_gaps = true;
+  parameters.automatic_scale = false;
   interruptPipeline(parameters, samples);
 }
 

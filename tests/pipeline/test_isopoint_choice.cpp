@@ -114,9 +114,9 @@ findGuesses(const IsosurfaceResult& result)
   for (const Message& warning : result.report.warnings)
     for (const char* const code : {"isopoints_at_border",
                                    "isopoints_beside_samples",
-                                   "guessed_isopoints",
-                                   "smoothed_guesses",
-                                   "guessed_border"})
+                                   "unconstrained_isopoints",
+                                   "unconstrained_level_set",
+                                   "unconstrained_border"})
       if (warning.code == code)
         found.push_back(warning);
   return found;
@@ -127,7 +127,8 @@ void
 expectLinesAreTold(const IsosurfaceResult& result)
 {
   const std::vector<Message> found = findGuesses(result);
-  ASSERT_EQ(std::vector<std::string>{"guessed_isopoints"}, uvol_test::listCodes(found));
+  ASSERT_EQ(std::vector<std::string>{"unconstrained_isopoints"},
+            uvol_test::listCodes(found));
   EXPECT_GE(uvol_test::numberOf(found[0], "percent"), 50.0);
 }
 
@@ -255,7 +256,7 @@ TEST(IsopointChoice, GoesBackToEdgesBetweenLines)
   EXPECT_EQ(LocalDimension::Line, chosen.sampling->most);
   ASSERT_EQ(2u, chosen.report.warnings.size());
   EXPECT_EQ("contradicted_isopoints", chosen.report.warnings[1].code);
-  EXPECT_EQ("guessed_isopoints", chosen.report.warnings[0].code);
+  EXPECT_EQ("unconstrained_isopoints", chosen.report.warnings[0].code);
   EXPECT_EQ(1.0, uvol_test::numberOf(chosen.report.warnings[0], "validate"));
 }
 

@@ -119,6 +119,7 @@ makeParameters(double isovalue, bool fills)
   parameters.isosurface.field = "intensity";
   parameters.isosurface.isovalues = {isovalue};
   parameters.fill_gaps = fills;
+  parameters.automatic_scale = false;
   return parameters;
 }
 

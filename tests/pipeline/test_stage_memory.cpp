@@ -2,10 +2,14 @@
 // Stages refuse points that do not fit into memory before they begin, whoever runs
 // them.
 #include "common/memory.h"
+#include "interpolation/sph_density.h"
 #include "support/environment.h"
+#include <pcl_uvol/expressions/derived_fields.h>
+#include <pcl_uvol/interpolation/field_interpolation.h>
 #include <pcl_uvol/levelset/level_set_evolution.h>
 #include <pcl_uvol/multivariate/density_clustering.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
+#include <pcl_uvol/render/image_space/image_space_renderer.h>
 #include <pcl_uvol/surface/splat_generation.h>
 #include <pcl_uvol/surface/surface_normals.h>
 
@@ -13,6 +17,7 @@
 #include <pcl/conversions.h>
 #include <pcl/point_types.h>
 
+#include <cstdint>
 #include <cstdio>
 #include <functional>
 #include <memory>
@@ -140,6 +145,107 @@ TEST_F(StageMemory, IsCheckedBeforeIsosurfaces)
               }),
               testing::ExitedWithCode(0),
               "An isosurface of 1000000 points needs [0-9]+ MB of memory, and only");
+}
+
+/** A stage that has less than it needs of a limit for the process. */
+void
+expectRefusalWithin(std::uint64_t left, const std::function<void()>& run)
+{
+  const pcl_uvol::MemoryLimit limit(pcl_uvol::residentMemory() + left);
+  EXPECT_THROW(run(), pcl_uvol::NotEnoughMemory);
+}
+
+class StageMemoryWithinLimits : public testing::Test {
+protected:
+  StageMemoryWithinLimits()
+  {
+    pcl::toPCLPointCloud2(*makePoints(), samples_->cloud);
+  }
+
+  const std::shared_ptr<pcl_uvol::Dataset> samples_ =
+      std::make_shared<pcl_uvol::Dataset>();
+};
+
+constexpr std::uint64_t little = 20000000;
+
+TEST_F(StageMemoryWithinLimits, OfInterpolation)
+{
+  pcl_uvol::FieldInterpolation<pcl::PCLPointCloud2> stage;
+  stage.setInputCloud({samples_, &samples_->cloud});
+  pcl::PointCloud<pcl::PointXYZ> queries;
+  queries.push_back({1.0f, 2.0f, 3.0f});
+  pcl_uvol::InterpolatedFields result;
+  expectRefusalWithin(little, [&] { stage.interpolate(queries, result); });
+}
+
+TEST_F(StageMemoryWithinLimits, OfQueries)
+{
+  pcl_uvol::FieldInterpolation<PointXYZI> stage;
+  const pcl::PointCloud<PointXYZI>::Ptr corners(new pcl::PointCloud<PointXYZI>);
+  for (int i = 0; i < 8; ++i) {
+    PointXYZI corner;
+    corner.x = static_cast<float>(i & 1);
+    corner.y = static_cast<float>(i >> 1 & 1);
+    corner.z = static_cast<float>(i >> 2);
+    corner.intensity = corner.x;
+    corners->push_back(corner);
+  }
+  stage.setInputCloud(corners);
+  pcl::PointCloud<pcl::PointXYZ> queries;
+  queries.resize(1000000);
+  pcl_uvol::InterpolatedFields result;
+  expectRefusalWithin(little, [&] { stage.interpolate(queries, result); });
+}
+
+TEST_F(StageMemoryWithinLimits, OfDerivatives)
+{
+  pcl_uvol::Report report;
+  expectRefusalWithin(
+      little, [&] { addDerivedField(*samples_, "|grad(intensity)|", {}, report); });
+}
+
+TEST_F(StageMemoryWithinLimits, OfDensities)
+{
+  pcl_uvol::Report report;
+  expectRefusalWithin(little,
+                      [&] { pcl_uvol::addSphDensity(*samples_, 2.0, 1, report); });
+}
+
+TEST_F(StageMemoryWithinLimits, OfPictures)
+{
+  pcl_uvol::ImageSpaceRenderer<pcl::PCLPointCloud2> renderer;
+  renderer.setInputCloud({samples_, &samples_->cloud});
+  pcl_uvol::Image image;
+  expectRefusalWithin(little, [&] { renderer.render(image); });
+}
+
+TEST_F(StageMemoryWithinLimits, OfRanks)
+{
+  pcl_uvol::SelfCommunicator alone;
+  pcl_uvol::DistributedIsosurfacePipeline pipeline(alone);
+  pipeline.setInput(samples_);
+  pcl_uvol::IsosurfacePipelineParameters parameters;
+  parameters.isosurface.isovalues = {50.5};
+  pipeline.setParameters(parameters);
+  expectRefusalWithin(little, [&] { pipeline.run(); });
+}
+
+/** A limit ends with its scope, and enough is enough. */
+TEST_F(StageMemoryWithinLimits, EnoughIsNotRefused)
+{
+  pcl_uvol::Report report;
+  const std::uint64_t resident = pcl_uvol::residentMemory();
+  {
+    const pcl_uvol::MemoryLimit limit(resident + 1000000);
+    EXPECT_LE(pcl_uvol::availableMemory(), 1000000u);
+    {
+      const pcl_uvol::MemoryLimit wider(resident + 10 * little);
+      EXPECT_GT(pcl_uvol::availableMemory(), 5 * little);
+    }
+    EXPECT_LE(pcl_uvol::availableMemory(), 1000000u);
+  }
+  const pcl_uvol::MemoryLimit enough(resident + 1000000000);
+  EXPECT_NO_THROW(addSphDensity(*samples_, 2.0, 1, report));
 }
 
 } // namespace test_stage_memory

@@ -150,23 +150,29 @@ TEST(Validation, SaysWhoIsBetterThanTheSurface)
   // 7 of 10 do: 0.04 with one of 0.0314.
   ASSERT_EQ(1u, warn(7, 3, 50).size());
   const Message better = warn(7, 3, 50)[0];
-  EXPECT_EQ("lines_tell_better", better.code);
+  EXPECT_EQ("worse_than_nearest_on_lines", better.code);
   EXPECT_EQ(1.0, uvol_test::numberOf(better, "scale"));
   EXPECT_EQ(1.0, uvol_test::numberOf(better, "gaps"));
   const std::string options = better.text(ParameterNames::Options);
   EXPECT_LT(options.size(), 300u);
   EXPECT_NE(std::string::npos, options.find(". Try: -scale or -fill-gaps."));
+  EXPECT_EQ(70.0, uvol_test::numberOf(better, "surface"));
+  EXPECT_EQ(74.0, uvol_test::numberOf(better, "nearest"));
+  EXPECT_EQ(100.0, uvol_test::numberOf(better, "samples"));
   parameters.fill_gaps = true; // what was given is not advised
+  parameters.automatic_scale = false;
   EXPECT_EQ(1.0, uvol_test::numberOf(warn(7, 3, 50)[0], "scale"));
   EXPECT_EQ(0.0, uvol_test::numberOf(warn(7, 3, 50)[0], "gaps"));
   sampling = SamplingSummary{{0.0, 0.0, 0.0, 1.0}, LocalDimension::Volume, 1.0f, 1.0f};
   ASSERT_EQ(1u, warn(7, 3, 50).size());
-  EXPECT_EQ("samples_tell_better", warn(7, 3, 50)[0].code);
-  EXPECT_TRUE(warn(7, 3, 50)[0].values.empty()); // nothing is advised
+  EXPECT_EQ("worse_than_nearest_sample", warn(7, 3, 50)[0].code);
+  EXPECT_EQ(3u, warn(7, 3, 50)[0].values.size()); // nothing is advised
   ASSERT_EQ(1u, warn(0, 0, 25).size());
-  EXPECT_EQ("surface_tells_nothing", warn(0, 0, 25)[0].code);
-  EXPECT_EQ((std::vector<std::string>{"surface_tells_nothing", "samples_tell_better"}),
-            uvol_test::listCodes(warn(7, 3, 25)));
+  EXPECT_EQ("worse_than_baseline", warn(0, 0, 25)[0].code);
+  EXPECT_EQ(75.0, uvol_test::numberOf(warn(0, 0, 25)[0], "baseline"));
+  EXPECT_EQ(
+      (std::vector<std::string>{"worse_than_baseline", "worse_than_nearest_sample"}),
+      uvol_test::listCodes(warn(7, 3, 25)));
   Report none;
   warnOfScores({scoreHeldOut({})}, parameters, sampling, none);
   EXPECT_TRUE(none.warnings.empty());
@@ -196,6 +202,7 @@ TEST(Validation, SaysWhereErrorsAreTooSmall)
   EXPECT_TRUE(warn(30, 6).empty());
   ASSERT_EQ(1u, warn(30, 7).size());
   EXPECT_EQ("small_errors", warn(30, 7)[0].code);
+  EXPECT_EQ(23.0, uvol_test::numberOf(warn(30, 7)[0], "percent"));
 }
 
 TEST(Validation, SaysThatNoiseHasNoSurface)

@@ -162,7 +162,7 @@ def test_variograms_are_those_of_the_tool(tmp_path, run_tool, linear):
     assert list(interpolator.variograms) == list(told["variograms"]) == ["f"]
     found, by_tool = interpolator.variograms["f"], told["variograms"]["f"]
     assert found["kind"] == by_tool["kind"]
-    assert [found[key] for key in ("nugget", "sill", "range")] == pytest.approx([by_tool[key] for key in ("nugget", "sill", "range")])
+    assert [found[key] for key in ("nugget", "psill", "range")] == pytest.approx([by_tool[key] for key in ("nugget", "psill", "range")])
     table = np.genfromtxt(tmp_path / "v.csv", delimiter=",", names=True, dtype=None, encoding=None)
     rows = table[table["direction"] == "all"]
     assert np.allclose(rows["distance"], interpolator.variograms["f"]["distances"])

@@ -37,12 +37,12 @@ def test_level_sets(tmp_path, run_tool, ball, arguments, options):
 def test_level_sets_tell_of_guesses_as_the_tool_does(tmp_path, run_tool):
     run_tool("uvol_generate", "in.pcd", "-field", "torus", "-n", 5000, "-samples", "holes")
     told = json.loads(run_tool("uvol_levelset", "in.pcd", "out.ply", "-field", "torus", "-iso", 0, "-steps", 1, "-json"))
-    guesses = [warning for warning in told["warnings"] if warning["code"] == "smoothed_guesses"]
+    guesses = [warning for warning in told["warnings"] if warning["code"] == "unconstrained_level_set"]
     assert len(guesses) == 1
     with pytest.warns(uvol.ResultWarning, match="between lines of samples") as warned:
         found = uvol.level_set(uvol.read(tmp_path / "in.pcd"), field="torus", iso=0, max_steps=1)
-    assert "smoothed_guesses" in [warning.message.code for warning in warned]
-    same = [warning for warning in found.report["warnings"] if warning["code"] == "smoothed_guesses"]
+    assert "unconstrained_level_set" in [warning.message.code for warning in warned]
+    same = [warning for warning in found.report["warnings"] if warning["code"] == "unconstrained_level_set"]
     assert [warning["values"] for warning in same] == [guesses[0]["values"]]
     # The tool names options, the module arguments.
     assert " -fill-gaps " in guesses[0]["text"] and " fill_gaps " in same[0]["text"]

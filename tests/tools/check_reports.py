@@ -25,6 +25,14 @@ uvol_generate holes.csv -n 3000 -field gyroid -samples holes
 uvol_info holes.csv -out sampling.csv
 """
 
+# A file that is not there, an option that is not known, an expression that ends too early, a value that is too large.
+FAILING = """
+uvol_isosurface none.pcd out.ply -iso 0
+uvol_isosurface noisy.pcd out.ply -izo 0
+uvol_isosurface noisy.pcd out.ply -iso 0 -field sqrt(
+uvol_info noisy.pcd -threads 100000
+"""
+
 
 def split(printed):
     """The reports that a command has printed: one of each file that it tells of."""
@@ -36,12 +44,12 @@ def split(printed):
     return reports
 
 
-def run(command, bin_folder, folder):
+def run(command, bin_folder, folder, fails=False):
     tool, *words = command.split()
     environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
     result = subprocess.run([bin_folder / tool, *words, "-json"], cwd=folder, env=environment, capture_output=True,
                             text=True)
-    if result.returncode != 0:
+    if fails != (result.returncode != 0):
         sys.exit(f"{command} failed: {result.stderr}")
     return split(result.stdout)
 
@@ -78,6 +86,12 @@ def main():
             if command and not command.startswith("#") and (bin_folder / command.split()[0]).exists():
                 for report in run(command, bin_folder, kept or new):
                     check(command, report)
+        for command in FAILING.split("\n")[1:-1]:
+            reports = run(command, bin_folder, kept or new, fails=True)
+            if len(reports) != 1 or "error" not in reports[0]:
+                failures.append(f"{command}: its report has no error.")
+            for report in reports:
+                check(command, report)
     unseen = set(schema["properties"]) - seen - {"files", "further_numbers_per_point"}
     failures += [f"No command here prints the key {key} of the schema." for key in sorted(unseen)]
     sys.exit("\n".join(failures) or 0)

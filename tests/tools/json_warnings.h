@@ -2,6 +2,8 @@
 // The warnings of a report that a tool printed with -json, by their codes.
 #pragma once
 
+#include "support/environment.h"
+
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -22,6 +24,14 @@ inline bool
 hasWarning(const nlohmann::json& report, const std::string& code)
 {
   return !warnedValues(report, code).is_null();
+}
+
+/** \brief Whether a report that is printed as JSON has a warning or an error of that
+ * code. */
+inline bool
+tellsOf(const CommandResult& report, const std::string& code)
+{
+  return report.out.find("\"code\": \"" + code + '"') != std::string::npos;
 }
 
 } // namespace uvol_test

@@ -4,6 +4,7 @@
 #include "common/scalar_field.h"
 #include "support/clouds.h"
 #include "support/environment.h"
+#include "tools/json_warnings.h"
 #include <pcl_uvol/io/dataset.h>
 
 #include <Eigen/Core>
@@ -340,9 +341,9 @@ TEST_F(Isosurface, AnIsovalueOutsideTheRangeGivesAnEmptyFileAndAWarning)
 {
   for (const char* ending : {"ply", "pcd", "csv", "vtp"}) {
     const std::string empty = folder_ / ("empty." + std::string(ending));
-    const auto result = run(in_ + " " + empty + " -field density -iso -3");
+    const auto result = run(in_ + " " + empty + " -field density -iso -3 -json");
     EXPECT_EQ(0, result.exit_code);
-    EXPECT_NE(std::string::npos, result.err.find("outside the range")) << result.err;
+    EXPECT_TRUE(uvol_test::tellsOf(result, "no_isopoints")) << result.out;
     EXPECT_EQ(0u, pointsIn(empty)) << ending;
   }
 }

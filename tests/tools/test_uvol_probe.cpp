@@ -3,6 +3,7 @@
 // is refused.
 #include "support/png.h"
 #include "tool_test.h"
+#include "tools/json_warnings.h"
 #include <pcl_uvol/io/dataset.h>
 
 #include <cmath>
@@ -164,9 +165,9 @@ TEST_F(ProbeTool, GridsAreTheFieldInEveryFormat)
 TEST_F(ProbeTool, OutsideThereIsNoValueUnlessAskedFor)
 {
   const std::string far = "-field cubic -line 0.5,0.5,0.5,0.5,0.5,3 -n 11";
-  const auto outside = run(far);
+  const auto outside = run(far + " -json");
   EXPECT_EQ(0, outside.exit_code);
-  EXPECT_NE(std::string::npos, outside.err.find("are outside the data"));
+  EXPECT_TRUE(uvol_test::tellsOf(outside, "queries_outside")) << outside.out;
   const Values values = fieldOf(pcl_uvol::loadDataset(out_), "cubic");
   EXPECT_FALSE(std::isnan(values[0]));
   EXPECT_TRUE(std::isnan(values[10]));
@@ -239,10 +240,11 @@ TEST_F(ProbeTool, SamplesLeftOutTellHowGoodItIs)
 TEST_F(ProbeTool, ConstantsHaveNoVariogram)
 {
   const auto result =
-      run("-field same -line 0.2,0.2,0.2,0.8,0.8,0.8 -n 5 -model kriging");
+      run("-field same -line 0.2,0.2,0.2,0.8,0.8,0.8 -n 5 -model kriging -json");
   EXPECT_EQ(0, result.exit_code);
-  EXPECT_NE(std::string::npos, result.err.find("it has no variogram")) << result.err;
-  EXPECT_EQ(1, std::count(result.err.begin(), result.err.end(), '\n'));
+  const auto warnings = Json::parse(result.out).at("warnings");
+  ASSERT_EQ(1u, warnings.size()) << result.out;
+  EXPECT_EQ("no_variogram", warnings[0].at("code"));
   const auto points = pcl_uvol::loadDataset(out_);
   EXPECT_EQ(fieldOf(points, "same"), Values(5, 7.5));
   EXPECT_EQ(fieldOf(points, "same_error"), Values(5, 0.0));
@@ -262,7 +264,7 @@ TEST_F(ProbeTool, VariogramsAreToldWrittenAndDrawn)
   EXPECT_EQ(given["wave"],
             (Json{{"kind", "exponential"},
                   {"nugget", 0.5},
-                  {"sill", 2.0},
+                  {"psill", 2.0},
                   {"range", given["wave"]["range"]},
                   {"pairs", given["wave"]["pairs"]}}));
   EXPECT_GT(given["wave"]["pairs"], 10000);
@@ -296,9 +298,9 @@ TEST_F(ProbeTool, VariogramsAreToldWrittenAndDrawn)
   const Json fitted = tell(any)["wave"];
   writeSamples(in_, 3000, 1024.0, 0.0);
   const Json larger = tell(any)["wave"];
-  const double range = fitted["range"], sill = fitted["sill"];
+  const double range = fitted["range"], sill = fitted["psill"];
   EXPECT_NEAR(larger["range"], 1024.0 * range, 1.024 * range);
-  EXPECT_NEAR(larger["sill"], sill, 1e-3 * sill);
+  EXPECT_NEAR(larger["psill"], sill, 1e-3 * sill);
 }
 
 TEST_F(ProbeTool, FewSamplesGetASimplerModel)
@@ -348,11 +350,15 @@ TEST_F(ProbeTool, TellsOfValuesThatHaveNoLogarithm)
 {
   const std::string plane =
       "-field wave -plane z=0.5 -size 20 -png " + (folder_ / "a.png");
-  const auto logarithmic = run(plane + " -log");
+  const auto logarithmic = run(plane + " -json -log");
   EXPECT_EQ(0, logarithmic.exit_code);
-  EXPECT_NE(std::string::npos, logarithmic.err.find("and have no logarithm"))
-      << logarithmic.err;
-  EXPECT_EQ(std::string::npos, run(plane).err.find("logarithm"));
+  EXPECT_TRUE(uvol_test::tellsOf(logarithmic, "no_logarithms") ||
+              uvol_test::tellsOf(logarithmic, "grey_places"))
+      << logarithmic.out;
+  const auto linear = run(plane + " -json");
+  EXPECT_EQ(0, linear.exit_code);
+  EXPECT_FALSE(uvol_test::tellsOf(linear, "no_logarithms") ||
+               uvol_test::tellsOf(linear, "grey_places"));
 }
 
 TEST_F(ProbeTool, RefusesNonsense)

@@ -3,6 +3,7 @@
 #include "support/environment.h"
 #include "support/png.h"
 #include "support/surfaces.h"
+#include "tools/json_warnings.h"
 #include <pcl_uvol/io/dataset.h>
 
 #include <gtest/gtest.h>
@@ -99,7 +100,7 @@ TEST_F(RenderTool, ColorsWithoutLightAreThoseOfTheMap)
       ++grey;
     }
   EXPECT_GT(grey, 128 * 128 / 4);
-  EXPECT_NE(std::string::npos, run("-size 128 -no-shading").err.find("are both white"));
+  EXPECT_TRUE(uvol_test::tellsOf(run("-size 128 -no-shading -json"), "white_on_white"));
   for (const char* seen :
        {"-silhouettes", "-features", "-background black", "-color normal_z"})
     EXPECT_EQ("", run(std::string("-size 128 -no-shading ") + seen).err) << seen;
@@ -400,9 +401,9 @@ TEST_F(RenderTool, IsosurfaceDrawsItsResult)
   EXPECT_EQ(80, PngHeader(out_).height);
   // A surface without points is no failure, but there is nothing to be drawn.
   std::remove(out_.c_str());
-  result = runCommand(extract + "-iso 1e9");
+  result = runCommand(extract + "-iso 1e9 -json");
   EXPECT_EQ(0, result.exit_code) << result.err;
-  EXPECT_NE(std::string::npos, result.err.find("nothing to draw")) << result.err;
+  EXPECT_TRUE(uvol_test::tellsOf(result, "nothing_to_draw")) << result.out;
   EXPECT_EQ((std::vector<std::string>{"in.ply", "out.ply", "samples.pcd"}),
             folder_.list());
   EXPECT_EQ(2, runCommand(extract + "-iso 8 -view above").exit_code);

@@ -93,8 +93,8 @@ public:
     cairo_surface_finish(surface_.get());
     const cairo_status_t status = cairo_surface_status(surface_.get());
     if (status != CAIRO_STATUS_SUCCESS)
-      throw pcl_uvol::IOError(std::string("Cannot make a page: ") +
-                              cairo_status_to_string(status) + ".");
+      throw pcl_uvol::IOError(
+          "page_not_made", {{"reason", std::string(cairo_status_to_string(status))}});
   }
 
 private:

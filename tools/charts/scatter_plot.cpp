@@ -217,10 +217,10 @@ drawScatterPlot(const std::vector<std::array<float, 3>>& points,
   const Paper paper = asked.orUsual(usual);
   const int width = paper.width, height = paper.height;
   if (width < 1 || height < 1 || width > largest_size || height > largest_size)
-    throw InvalidArgument("A picture has 1 to 16384 pixels along each side.");
+    throw InvalidArgument("bad_chart_size", {{"most", largest_size}});
   if (!labels.empty() && labels.size() != points.size())
-    throw InvalidArgument("There are " + std::to_string(labels.size()) +
-                          " labels for " + std::to_string(points.size()) + " points.");
+    throw InvalidArgument("labels_unlike_points",
+                          {{"labels", labels.size()}, {"points", points.size()}});
   BoundingSphere ball = findMiddle(points);
   const double radius = ball.radius;
   ball.radius *= 1.1; // room for names

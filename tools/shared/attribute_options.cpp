@@ -119,7 +119,7 @@ void
 AttributeOptions::checkPosition(const pcl_uvol::Dataset& dataset) const
 {
   if (has_position_ && !dataset.has_coordinates)
-    throw pcl_uvol::InvalidArgument("The input has no coordinates for -position.");
+    throw pcl_uvol::InvalidArgument("no_coordinates_for", {});
 }
 
 pcl_uvol::LoadOptions
@@ -149,9 +149,7 @@ readLabels(const pcl_uvol::CloudView& cloud, const std::string& field)
       continue;
     if (value != std::round(value) ||
         std::abs(value) > std::numeric_limits<std::int32_t>::max())
-      throw pcl_uvol::InvalidArgument(
-          "The field " + field +
-          " has values that are not integers: it does not hold labels.");
+      throw pcl_uvol::InvalidArgument("labels_not_integers", {{"field", field}});
     labels[i] = static_cast<std::int32_t>(value);
   }
   return labels;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shared/density_options.h"
 
+#include "interpolation/memory_need.h"
 #include "interpolation/sph_density.h"
 
 #include <limits>
@@ -29,9 +30,7 @@ DensityOptions::declare(Options& options)
 double
 DensityOptions::findBytes(double points) const
 {
-  // Samples with their tree, kernels, masses twice, densities.
-  constexpr double sums = 36.0 + 40.0 + 3 * 8.0 + 24.0;
-  return isAskedFor() ? sums * points : 0.0;
+  return isAskedFor() ? pcl_uvol::sphDensityBytes(points) : 0.0;
 }
 
 void

@@ -54,7 +54,8 @@ IsosurfaceOptions::finish(const Options& options)
     throw UsageError(
         "-iso is missing: give one isovalue or several, as in -iso 0.3,0.6.");
   scale_.finish(options);
-  parameters.automatic_scale = scale_.isFromField();
+  if (scale_.isGiven())
+    parameters.automatic_scale = scale_.isFromField();
   parameters.isosurface.scale = scale_.getStretch().scale;
   parameters.rotation = scale_.getStretch().rotation;
 }

@@ -3,6 +3,7 @@
 
 #include "common/memory.h"
 #include "expressions/formula.h"
+#include "interpolation/memory_need.h"
 #include "io/memory_need.h"
 
 #include <algorithm>
@@ -88,7 +89,8 @@ MemoryGuard::check(double points) const
 double
 derivativeBytes(const std::string& expression, double points)
 {
-  return pcl_uvol::mayHaveDerivative(expression) ? derivative_bytes * points : 0.0;
+  return pcl_uvol::mayHaveDerivative(expression) ? pcl_uvol::derivativeBytes(points)
+                                                 : 0.0;
 }
 
 } // namespace uvol_tools

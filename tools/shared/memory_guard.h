@@ -46,10 +46,6 @@ private:
   double base_, forecast_ = 0.0;
 };
 
-/** \brief Bytes per point of derivatives of three fields, with what goes in and comes
- * out (measured, see tests/tools/test_memory_forecast.cpp). */
-constexpr double derivative_bytes = 160.0;
-
 /** \brief Bytes of the derivatives of an expression, 0 if it has none. */
 double
 derivativeBytes(const std::string& expression, double points);

@@ -21,6 +21,7 @@ namespace {
 
 std::optional<std::vector<std::string>> expected_outputs; // of a series
 std::string named_file, named_output; // a tool has one command line at a time
+bool is_json_asked_for = false;
 
 /** True for a value that may start with a minus sign: -0.5, -1,0,2 or -1:0.5:1. */
 bool
@@ -419,6 +420,8 @@ bool
 Options::parse(int argc, const char* const* argv)
 {
   const std::vector<std::string> arguments = splitValues(argc, argv);
+  is_json_asked_for =
+      std::find(arguments.begin(), arguments.end(), "-json") != arguments.end();
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     const std::string& argument = arguments[i];
     if (argument == "-h" || argument == "-help") {
@@ -506,6 +509,12 @@ Options::assignFiles(const std::vector<std::string>& files) const
     }
     else
       *positionals_[i].target = *next++;
+}
+
+bool
+isJsonAskedFor()
+{
+  return is_json_asked_for;
 }
 
 const std::string&

@@ -418,6 +418,8 @@ struct Outcome {
   int exit_code = 0;
   std::string sentence;          ///< why it failed
   std::string marked_lines = {}; ///< of an expression that is wrong: it, and where
+  std::string code = {};         ///< of the table of messages
+  std::vector<pcl_uvol::MessageValue> values = {};
 };
 
 /** \brief Run a tool's body: its exit code, or 1 for a failure, or 2 for a UsageError.
@@ -430,9 +432,14 @@ catchErrors(const char* tool, const std::function<int()>& body);
 int
 runTool(const char* tool, const std::function<int()>& body);
 
-/** \brief What runTool writes to stderr. */
+/** \brief What runTool writes to stderr and, if the command line asks for JSON, to
+ * stdout: an object with code, text and values. */
 void
 printError(const char* tool, const Outcome& outcome);
+
+/** \brief Whether the command line that is parsed asks for JSON. */
+bool
+isJsonAskedFor();
 
 /** \brief What pictures say about themselves: version and command. */
 std::vector<pcl_uvol::ImageText>

@@ -38,39 +38,22 @@ PeriodicOption::check(bool is_turned) const
 }
 
 std::array<double, 3>
-PeriodicOption::findSides(const pcl_uvol::Dataset& samples,
-                          pcl_uvol::Report& report) const
+PeriodicOption::findSides(const pcl_uvol::Dataset& samples) const
 {
-  if (text_.empty()) {
-    if (pcl_uvol::isPeriodic(samples.box))
-      report.warn("box_in_file", {{"sides", joined(samples.box)}});
-    return {};
-  }
   if (text_ != "header")
     return check();
-  if (!pcl_uvol::isPeriodic(samples.box))
-    throw pcl_uvol::InvalidArgument("The file names no box: give its sides, as in "
-                                    "-periodic 100,100,100.");
+  if (samples.box == std::array<double, 3>{})
+    throw pcl_uvol::InvalidArgument("no_box_in_file", {});
   return samples.box;
 }
 
 Fact
-describeBox(const pcl_uvol::PeriodicBox& box, const std::array<double, 3>& origin)
+describeBox(const pcl_uvol::SampleBox& box)
 {
-  std::array<double, 3> low{};
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    low[axis] = box.sides[axis] > 0.0 ? box.low[axis] + origin[axis] : 0.0;
   return {"periodic box",
-          "sides " + joined(box.sides) + " from " + joined(low),
+          "sides " + joined(box.sides) + " from " + joined(box.low),
           Fact::Members{{"sides", {box.sides.begin(), box.sides.end()}},
-                        {"low", {low.begin(), low.end()}}}};
-}
-
-void
-tellBox(const pcl_uvol::SamplesInBox& samples, Facts& facts)
-{
-  if (samples.isPeriodic())
-    facts.push_back(describeBox(samples.getBox(), samples.getOrigin()));
+                        {"low", {box.low.begin(), box.low.end()}}}};
 }
 
 } // namespace uvol_tools

@@ -2,10 +2,10 @@
 // -periodic x,y,z|header: the box that samples repeat in.
 #pragma once
 
-#include "neighbors/samples_in_box.h"
 #include "shared/facts.h"
 #include "shared/options.h"
 #include <pcl_uvol/common/dataset.h>
+#include <pcl_uvol/pipeline/isosurface_result.h>
 
 #include <array>
 #include <string>
@@ -34,25 +34,18 @@ public:
   std::array<double, 3>
   check(bool is_turned = false) const;
 
-  /** \brief The sides of the box of a file, 0 without the option. Where a file names a
-   * box and the option is not given, a warning says so.
+  /** \brief The sides of the box of a file, 0 without the option.
    *
    * \throws InvalidArgument for header where the file names none */
   std::array<double, 3>
-  findSides(const pcl_uvol::Dataset& samples, pcl_uvol::Report& report) const;
+  findSides(const pcl_uvol::Dataset& samples) const;
 
 private:
   std::string text_;
 };
 
-/** \brief Tell of the box, for a report.
- *
- * \param origin of the coordinates that the box has */
+/** \brief Tell of the box, for a report. */
 Fact
-describeBox(const pcl_uvol::PeriodicBox& box, const std::array<double, 3>& origin);
-
-/** \brief Add what there is to tell of the box of samples, if there is one. */
-void
-tellBox(const pcl_uvol::SamplesInBox& samples, Facts& facts);
+describeBox(const pcl_uvol::SampleBox& box);
 
 } // namespace uvol_tools

@@ -204,8 +204,9 @@ loadPoints(const std::string& path,
     report.count("removed_by_where",
                  pcl_uvol::selectRows(dataset, where, {threads, ""}, report));
   if (dataset.cloud.width == 0)
-    throw pcl_uvol::InvalidArgument(
-        path + " has no points" + (where.empty() ? "." : " for which " + where + "."));
+    throw where.empty() ? pcl_uvol::InvalidArgument("no_points", {{"path", path}})
+                        : pcl_uvol::InvalidArgument("no_points_where",
+                                                    {{"path", path}, {"where", where}});
   return dataset;
 }
 

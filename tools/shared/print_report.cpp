@@ -44,19 +44,36 @@ countEqual(const std::vector<pcl_uvol::Message>& warnings)
 }
 
 nlohmann::ordered_json
+toJson(const std::string& code,
+       const std::string& text,
+       const std::vector<pcl_uvol::MessageValue>& values)
+{
+  Facts facts;
+  for (const auto& value : values)
+    std::visit([&](const auto& held) { facts.emplace_back(value.name, held); },
+               value.value);
+  return {{"code", code},
+          {"text", text},
+          {"values", nlohmann::ordered_json::parse(Fact("values", facts).getJson())}};
+}
+
+nlohmann::ordered_json
 toJson(const CountedWarning& warning)
 {
-  Facts values;
-  for (const auto& value : warning.message.values)
-    std::visit([&](const auto& held) { values.emplace_back(value.name, held); },
-               value.value);
-  nlohmann::ordered_json object{
-      {"code", warning.message.code},
-      {"text", warning.message.text(ParameterNames::Options)},
-      {"values", nlohmann::ordered_json::parse(Fact("values", values).getJson())}};
+  const pcl_uvol::Message& message = warning.message;
+  auto object =
+      toJson(message.code, message.text(ParameterNames::Options), message.values);
   if (warning.times > 1)
     object["times"] = warning.times;
   return object;
+}
+
+/** File names need not be UTF-8. */
+void
+printJson(const nlohmann::ordered_json& object)
+{
+  std::cout << object.dump(2, ' ', false, nlohmann::json::error_handler_t::replace)
+            << std::endl;
 }
 
 /** Switches the terminal's colour for its lifetime; nothing in a pipe. */
@@ -156,9 +173,7 @@ printReport(const Options& options,
     object["warnings"] = nlohmann::ordered_json::array();
     for (const CountedWarning& warning : countEqual(report.warnings))
       object["warnings"].push_back(toJson(warning));
-    // File names need not be UTF-8.
-    std::cout << object.dump(2, ' ', false, nlohmann::json::error_handler_t::replace)
-              << '\n';
+    printJson(object);
     return;
   }
   const bool in_colour = !plain && isatty(STDOUT_FILENO) != 0;
@@ -178,6 +193,17 @@ printReport(const Options& options,
         std::cerr, !plain && isatty(STDERR_FILENO) != 0, warning_colour);
     std::cerr << line;
   }
+}
+
+void
+printError(const char* tool, const Outcome& outcome)
+{
+  const std::string sentence = printable(outcome.sentence);
+  std::cerr << tool << ": " << sentence << '\n';
+  if (!outcome.marked_lines.empty())
+    std::cerr << outcome.marked_lines << '\n';
+  if (isJsonAskedFor())
+    printJson({{"error", toJson(outcome.code, sentence, outcome.values)}});
 }
 
 } // namespace uvol_tools

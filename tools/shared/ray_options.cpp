@@ -129,9 +129,7 @@ makeSplatScene(const pcl_uvol::CloudView& cloud,
                int side)
 {
   if (splats.cloud.empty())
-    throw pcl_uvol::InvalidArgument("None of the splats can be drawn: the coordinates "
-                                    "are too large or too small for "
-                                    "them; scaling them helps.");
+    throw pcl_uvol::InvalidArgument("splats_out_of_range", {});
   pcl_uvol::SplatObject object;
   if (!colors.empty())
     for (const std::uint32_t source : splats.sources)

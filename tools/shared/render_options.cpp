@@ -4,10 +4,10 @@
 #include "charts/color_bar.h"
 #include "gl/gl_backend.h"
 #include "render/image_space/cpu_backend.h"
+#include "render/memory_need.h"
 #include "render/surface_cloud.h"
 #include "shared/fallback_backend.h"
 #include "shared/flat_colors.h"
-#include "surface/memory_need.h"
 #include "web/surface_page.h"
 #include <pcl_uvol/render/image_space/image_space_renderer.h>
 
@@ -21,11 +21,6 @@ namespace uvol_tools {
 namespace {
 
 constexpr double largest = 1e9;
-
-/** Bytes of a picture in image space, per pixel; blended discs take memory where they
- * are. Measured on 9 million pixels that an object fills, and as the mean of what
- * tori, spheres, an engine and scans take that the camera is fitted to: 24 to 37. */
-constexpr double full_pixel_bytes = 50.0, fitted_pixel_bytes = 31.0;
 
 /** What -backend names: auto takes a graphics card if there is one that can draw, else
  * the CPU, which is far faster than OpenGL in software.
@@ -257,16 +252,12 @@ RenderOptions::drawCloud(const Options& options,
 double
 RenderOptions::findBytes(double points, std::size_t surfaces) const
 {
-  constexpr double layer_bytes = 8.0; // colour and depth
-  constexpr double depth_bytes = 4.0; // of pixels that silhouettes are drawn from
   const double scale = getSupersampling();
-  const double pixels = scale * getWidth() * scale * getHeight();
-  const double layers = hasOpacities() ? static_cast<double>(surfaces) : 0.0;
-  const double lines = settings_.silhouettes && scale > 1.0 ? depth_bytes : 0.0;
-  return ((isFitted() ? fitted_pixel_bytes : full_pixel_bytes) + lines +
-          layer_bytes * layers) *
-             pixels +
-         pcl_uvol::footprintsBytes(points);
+  return pcl_uvol::pictureBytes({points,
+                                 scale * getWidth() * scale * getHeight(),
+                                 hasOpacities() ? surfaces : 0,
+                                 settings_.silhouettes && scale > 1.0,
+                                 isFitted()});
 }
 
 void

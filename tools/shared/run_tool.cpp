@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // From exceptions to exit codes: 0 success, 1 failure, 2 a wrong command line.
-#include "common/printable.h"
 #include "shared/options.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/expressions/derived_fields.h>
@@ -37,6 +36,14 @@ withFile(const std::string& sentence)
              : file + ": " + sentence;
 }
 
+/** \param is_of_file without its file a sentence could be about any */
+Outcome
+fail(const pcl_uvol::Message& message, bool is_of_file = false)
+{
+  const std::string text = message.text(pcl_uvol::ParameterNames::Options);
+  return {1, is_of_file ? withFile(text) : text, "", message.code, message.values};
+}
+
 } // namespace
 
 Outcome
@@ -50,38 +57,46 @@ catchErrors(const char* tool, const std::function<int()>& body)
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU})
     if (std::signal(signal, endBySignal) == SIG_IGN) // as nohup asks for
       std::signal(signal, SIG_IGN);
+  using pcl_uvol::Message;
   try {
     const int exit_code = body();
     if (!std::cout.flush())
-      return {1, "Standard output could not be written."};
+      return fail({"output_closed", {}});
     return {exit_code, ""};
   }
   catch (const UsageError& error) {
-    return {2, std::string(error.what()) + " (" + tool + " -h lists the options)"};
+    return {2,
+            std::string(error.what()) + " (" + tool + " -h lists the options)",
+            "",
+            "command_line",
+            {{"text", std::string(error.what())}}};
   }
   catch (const pcl_uvol::IOError& error) { // which names its file
-    return {1, error.asMessage().text(pcl_uvol::ParameterNames::Options)};
+    return fail(error.asMessage());
   }
   catch (const pcl_uvol::ExpressionError& error) {
-    return {1, withFile(error.getSentence()), error.getMarkedLines()};
+    Outcome outcome = fail(error.asMessage());
+    outcome.sentence = withFile(error.getSentence());
+    outcome.marked_lines = error.getMarkedLines();
+    return outcome;
   }
   catch (const pcl_uvol::Exception& error) {
-    return {1, withFile(error.asMessage().text(pcl_uvol::ParameterNames::Options))};
+    return fail(error.asMessage(), true);
   }
   catch (const std::bad_alloc&) {
-    return {1, withFile("There is not enough memory.")};
+    return fail({"out_of_memory", {}}, true);
   }
   catch (const std::length_error&) { // of a vector longer than any memory
-    return {1, withFile("There is not enough memory.")};
+    return fail({"out_of_memory", {}}, true);
   }
   catch (const std::system_error&) { // of threads that the system does not give
-    return {1, withFile("There are not enough memory or threads for it.")};
+    return fail({"out_of_threads", {}}, true);
   }
   catch (const std::exception& error) {
     // TBB, which VTK's filters run on, tells of threads that it is not given.
     if (std::string(error.what()).find("pthread_create") != std::string::npos)
-      return {1, withFile("There are not enough memory or threads for it.")};
-    return {1, error.what()};
+      return fail({"out_of_threads", {}}, true);
+    return fail(Message(error.what()));
   }
 }
 
@@ -98,15 +113,6 @@ runTool(const char* tool, const std::function<int()>& body)
     std::cerr << tool << ": There is not enough memory.\n";
     return 1;
   }
-}
-
-void
-printError(const char* tool, const Outcome& outcome)
-{
-  const std::string sentence = pcl_uvol::printable(outcome.sentence);
-  std::cerr << tool << ": " << sentence << '\n';
-  if (!outcome.marked_lines.empty())
-    std::cerr << outcome.marked_lines << '\n';
 }
 
 } // namespace uvol_tools

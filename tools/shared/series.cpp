@@ -3,6 +3,7 @@
 
 #include "common/numbers.h"
 #include "common/printable.h"
+#include "io/files.h"
 #include "io/folder.h"
 #include "io/memory_need.h"
 #include "io/xml_text.h"
@@ -10,6 +11,8 @@
 #include <pcl_uvol/io/dataset.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <fcntl.h>
 #include <filesystem>
 #include <fstream>
@@ -191,7 +194,7 @@ writeList(const std::vector<ListedFile>& written)
           << "\"/>\n";
     out << "</Collection>\n</VTKFile>\n";
     if (!out.flush())
-      throw std::runtime_error("Cannot write '" + list.string() + "'.");
+      pcl_uvol::io::throwUnwritable(list.string(), std::strerror(errno));
   });
   std::cerr << "ParaView opens all of them as " << list.string() << '\n';
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "uvol_isosurface/input_samples.h"
 
+#include "interpolation/memory_need.h"
 #include "isosurface/memory_need.h"
 #include "pipeline/memory_need.h"
 #include "shared/point_files.h"
@@ -21,7 +22,7 @@ forecastMemory(const PipelineOptions& arguments)
     const double isopoints =
         static_cast<double>(isovalues) * pcl_uvol::usualIsopoints(points);
     const double deriving = arguments.picture.hasColorOfSamples()
-                                ? derivative_bytes * points
+                                ? pcl_uvol::derivativeBytes(points)
                                 : derivativeBytes(parameters.isosurface.field, points);
     return std::max({deriving,
                      arguments.density.findBytes(points),
@@ -53,7 +54,7 @@ loadSamples(const Options& options,
                                                      &points));
   report.count("points", points);
   arguments.resolveSpacing(*samples);
-  const auto sides = arguments.periodic.findSides(*samples, report);
+  const auto sides = arguments.periodic.findSides(*samples);
   arguments.parameters.periodic = Eigen::Array3d(sides.data());
   arguments.density.addField(*samples, options.threads(), report, sides);
   if (arguments.density.isAskedFor() && arguments.parameters.isosurface.field.empty())

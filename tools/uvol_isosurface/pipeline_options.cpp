@@ -128,7 +128,7 @@ bool
 PipelineOptions::needsAllSamples() const
 {
   return hasFieldsOfNeighbors() || periodic.isAskedFor() || parameters.outside_value ||
-         parameters.smooth || parameters.automatic_scale ||
+         parameters.smooth || parameters.takesAutomaticScale() ||
          getScale().isFromSpacing() || isTurned(parameters) || !getWhere().empty() ||
          parameters.validation.folds > 0 || parameters.mesh || parameters.fill_gaps ||
          mesh_.isMeasured() ||
@@ -176,9 +176,6 @@ void
 PipelineOptions::finish(const Options& options)
 {
   IsosurfaceOptions::finish(options);
-  // What kriging predicts between lines lives on distances that mean something.
-  if (parameters.fill_gaps && !getScale().isGiven())
-    parameters.automatic_scale = true;
   parameters.isosurface.voronoi_cells = static_cast<std::uint32_t>(grid_);
   parameters.normal_neighbors = k_;
   if (options.given("max-error")) {

@@ -78,13 +78,8 @@ runInMemory(const Options& options,
   pipeline.setNumberOfThreads(options.threads());
   pipeline.setProgressCallback(report.progress);
   IsosurfaceResult result = pipeline.run();
-  const Eigen::Array3d& sides = parameters.periodic;
-  if ((sides > 0.0).any()) {
-    Report own; // the pipeline has told of samples outside
-    figures.push_back(describeBox(
-        pcl_uvol::findPeriodicBox(*samples, {{sides[0], sides[1], sides[2]}}, own),
-        samples->origin));
-  }
+  if (result.box)
+    figures.push_back(describeBox(*result.box));
   for (const Fact& fact : measureResult(options, arguments, samples, result))
     figures.push_back(fact);
   return result;

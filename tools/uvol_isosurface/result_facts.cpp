@@ -98,12 +98,12 @@ describeGaps(const pcl_uvol::GapFilling& gaps)
   else
     text << gaps.predicted << " samples predicted by kriging, spacing " << gaps.spacing
          << ", within the range " << gaps.range << " of a spherical variogram (nugget "
-         << gaps.nugget << ", partial sill " << gaps.sill << ")";
+         << gaps.nugget << ", partial sill " << gaps.psill << ")";
   const std::vector<Fact> members{{"predicted", static_cast<double>(gaps.predicted)},
                                   {"spacing", gaps.spacing},
                                   {"range", gaps.range},
                                   {"nugget", gaps.nugget},
-                                  {"sill", gaps.sill},
+                                  {"psill", gaps.psill},
                                   {"unfilled", gaps.unfilled}};
   return {Fact("gaps", text.str()).withoutJson(), Fact("gaps", members)};
 }

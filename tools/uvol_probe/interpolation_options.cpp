@@ -174,7 +174,7 @@ InterpolationOptions::parseVariogram()
     return;
   const auto numbers = parseNumbers("variogram", variogram_.substr(comma + 1), 3);
   kriging.nugget = numbers[0];
-  kriging.sill = numbers[1];
+  kriging.psill = numbers[1];
   kriging.range = numbers[2];
 }
 

@@ -95,7 +95,7 @@ describe(const FittedVariogram& variogram)
   FactText text;
   text.precision(4);
   text << toWord(model.kind) << ", nugget " << model.nugget << ", partial sill "
-       << model.sill << ", range " << model.range << ", from "
+       << model.psill << ", range " << model.range << ", from "
        << static_cast<std::uint64_t>(countPairs(variogram)) << " pairs of samples";
   return text.str();
 }
@@ -144,11 +144,10 @@ VariogramOutput::write(const pcl_uvol::detail::FieldInterpolator& interpolator,
     if (!variogram)
       continue;
     const Variogram& model = variogram->model;
-    if (!(model.nugget + model.sill > 0.0)) {
+    if (!(model.nugget + model.psill > 0.0)) {
       if (field == 0 && isAskedFor())
-        throw pcl_uvol::InvalidArgument("The field " + names[field] +
-                                        " is the same at all samples: there is no "
-                                        "variogram.");
+        throw pcl_uvol::InvalidArgument("no_variogram_of_constant",
+                                        {{"field", names[field]}});
       continue;
     }
     facts.push_back(
@@ -156,7 +155,7 @@ VariogramOutput::write(const pcl_uvol::detail::FieldInterpolator& interpolator,
     of_fields.emplace_back(names[field],
                            Facts{{"kind", toWord(model.kind)},
                                  {"nugget", model.nugget},
-                                 {"sill", model.sill},
+                                 {"psill", model.psill},
                                  {"range", model.range},
                                  {"pairs", countPairs(*variogram)}});
     if (field > 0)

@@ -12,20 +12,17 @@ namespace uvol_tools {
 void
 checkDisplay()
 {
-  const std::string advice = ": uvol_render draws pictures without one.";
   const char* const name = std::getenv("DISPLAY");
   if (name == nullptr || *name == '\0')
-    throw pcl_uvol::GlError("There is no display (DISPLAY is not set)" + advice);
+    throw pcl_uvol::GlError("no_display", {});
   Display* const display = XOpenDisplay(nullptr);
   if (display == nullptr)
-    throw pcl_uvol::GlError("The display " + std::string(name) + " cannot be opened" +
-                            advice);
+    throw pcl_uvol::GlError("display_not_opened", {{"display", std::string(name)}});
   int opcode, event, error;
   const bool has_opengl = XQueryExtension(display, "GLX", &opcode, &event, &error) != 0;
   XCloseDisplay(display);
   if (!has_opengl)
-    throw pcl_uvol::GlError("The display " + std::string(name) + " has no OpenGL" +
-                            advice);
+    throw pcl_uvol::GlError("display_without_opengl", {{"display", std::string(name)}});
 }
 
 } // namespace uvol_tools

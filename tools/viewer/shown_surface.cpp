@@ -14,7 +14,6 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <sstream>
 #include <utility>
 
 namespace uvol_tools {
@@ -131,7 +130,7 @@ findRange(const pcl::PCLPointCloud2& points, const std::string& name)
     }
   }
   if (low > high)
-    throw InvalidArgument("All values of " + name + " are without a number.");
+    throw InvalidArgument("all_values_missing", {{"field", name}});
   return {low, high};
 }
 
@@ -146,7 +145,7 @@ ShownSurface::ShownSurface(pcl_uvol::Dataset dataset,
     , threads_(threads)
 {
   if (dataset.cloud.width == 0)
-    throw InvalidArgument("There are no points to be shown.");
+    throw InvalidArgument("no_points_to_show", {});
   const auto samples = std::make_shared<const pcl_uvol::Dataset>(std::move(dataset));
   samples_ = Cloud::ConstPtr(samples, &samples->cloud);
   if (field_.empty()) {
@@ -156,8 +155,7 @@ ShownSurface::ShownSurface(pcl_uvol::Dataset dataset,
   }
   range_ = findRange(*samples_, field_);
   if (!(range_[0] < range_[1]))
-    throw InvalidArgument("All values of " + field_ +
-                          " are equal: there is no isosurface between them.");
+    throw InvalidArgument("all_values_equal", {{"field", field_}});
   const auto pipeline = std::make_shared<DraftingPipeline>(samples, field, threads);
   worker_ =
       std::make_unique<SurfaceWorker>([pipeline, factors, add_color, threads](
@@ -203,12 +201,12 @@ void
 ShownSurface::setIsoValues(const std::vector<double>& isovalues)
 {
   for (const double isovalue : isovalues)
-    if (!(isovalue >= range_[0] && isovalue <= range_[1])) {
-      std::ostringstream text;
-      text << "The isovalue lies between " << range_[0] << " and " << range_[1]
-           << ", the range of " << field_ << ", and is not " << isovalue << ".";
-      throw InvalidArgument(text.str());
-    }
+    if (!(isovalue >= range_[0] && isovalue <= range_[1]))
+      throw InvalidArgument("isovalue_beyond_values",
+                            {{"low", range_[0]},
+                             {"high", range_[1]},
+                             {"field", field_},
+                             {"isovalue", isovalue}});
   ask({isovalues, asked_.is_meshed, asked_.cut});
 }
 
@@ -224,8 +222,7 @@ void
 ShownSurface::setMeshed(bool is_meshed)
 {
   if (field_.empty())
-    throw InvalidArgument("A mesh is made of samples, and these are points of a "
-                          "surface: -field shows the isosurfaces of samples.");
+    throw InvalidArgument("mesh_of_surface_points", {});
   ask({asked_.isovalues, is_meshed, asked_.cut});
 }
 

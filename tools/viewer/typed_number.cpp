@@ -36,7 +36,8 @@ TypedNumber::press(char key)
   is_begun_ = false;
   double number = 0.0;
   if (!pcl_uvol::parseNumber(text_, number))
-    throw pcl_uvol::InvalidArgument(pcl_uvol::quoteText(text_) + " is not a number.");
+    throw pcl_uvol::InvalidArgument("not_a_number",
+                                    {{"text", pcl_uvol::quoteText(text_)}});
   return number;
 }
 

@@ -198,7 +198,7 @@ void
 ViewerWindow::savePicture()
 {
   if (!surface_.getCloud())
-    throw pcl_uvol::InvalidArgument("There is no surface to draw.");
+    throw pcl_uvol::InvalidArgument("no_surface_to_draw", {});
   pcl_uvol::ImageSpaceRenderer<pcl::PCLPointCloud2> renderer;
   renderer.setInputCloud(surface_.getCloud());
   renderer.settings() = prop_->renderer().settings();
@@ -213,7 +213,7 @@ void
 ViewerWindow::saveRayTracedPicture()
 {
   if (!surface_.getCloud())
-    throw pcl_uvol::InvalidArgument("There is no surface to draw.");
+    throw pcl_uvol::InvalidArgument("no_surface_to_draw", {});
   const pcl_uvol::CloudView cloud = pcl_uvol::viewOf(*surface_.getCloud());
   const pcl_uvol::ImageSpaceSettings& settings = prop_->renderer().settings();
   const int* const size = window_->GetSize();
@@ -240,7 +240,7 @@ void
 ViewerWindow::saveSurface()
 {
   if (!surface_.getCloud())
-    throw pcl_uvol::InvalidArgument("There is no surface to save.");
+    throw pcl_uvol::InvalidArgument("no_surface_to_save", {});
   const std::string name = freeName(".ply");
   pcl_uvol::Dataset surface;
   surface.cloud = *surface_.getData();
@@ -271,8 +271,7 @@ ViewerWindow::readFile(const std::string& path)
     surface.finish();
   }
   if (!surface.getCloud())
-    throw pcl_uvol::InvalidArgument("There are no points at the isovalues of " + path +
-                                    " that were tried.");
+    throw pcl_uvol::InvalidArgument("no_points_at_isovalues", {{"path", path}});
   return file;
 }
 

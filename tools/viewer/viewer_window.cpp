@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "viewer/viewer_window.h"
 
+#include "io/files.h"
 #include "shared/flat_colors.h"
 #include "viewer/keys.h"
 #include "viewer/mouse_style.h"
@@ -72,8 +73,8 @@ ViewerWindow::ViewerWindow(const std::string& path,
   surface_.finish();
   const pcl::PCLPointCloud2::ConstPtr& cloud = surface_.getCloud();
   if (!cloud)
-    throw pcl_uvol::InvalidArgument("There are no points at this isovalue of " +
-                                    surface_.getField() + ": choose another one.");
+    throw pcl_uvol::InvalidArgument("no_points_at_isovalue",
+                                    {{"field", surface_.getField()}});
   prop_->setBackend(backend);
   pcl_uvol::ImageSpaceRendererBase& renderer = prop_->renderer();
   look_.applyLook(options, pcl_uvol::viewOf(*cloud), renderer);
@@ -441,7 +442,8 @@ ViewerWindow::save(const std::string& path)
     writer->SetFileName(temporary_path.c_str());
     writer->Write();
     if (writer->GetErrorCode() != vtkErrorCode::NoError)
-      throw pcl_uvol::IOError(path + " could not be written.");
+      pcl_uvol::io::throwUnwritable(
+          path, vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode()));
   });
 }
 

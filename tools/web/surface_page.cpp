@@ -4,13 +4,16 @@
 #include "charts/color_bar.h"
 #include "charts/drawing.h"
 #include "charts/picture_file.h"
+#include "io/files.h"
 #include "surface/packed_normal.h"
 #include "web/surface_page_template.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -172,7 +175,7 @@ writeSurfacePage(const std::string& path,
            << text.substr(second + points_mark.size());
     stream.close();
     if (!stream)
-      throw pcl_uvol::IOError("Cannot write '" + path + "'.");
+      pcl_uvol::io::throwUnwritable(path, std::strerror(errno));
   });
 }
 

@@ -90,7 +90,7 @@ struct PCL_UVOL_EXPORTS KrigingParameters {
    * field, >= 0, and range in units of length, > 0; NaN (default): fitted to the
    * samples, for every field. @{ */
   double nugget = std::numeric_limits<double>::quiet_NaN();
-  double sill = std::numeric_limits<double>::quiet_NaN();
+  double psill = std::numeric_limits<double>::quiet_NaN();
   double range = std::numeric_limits<double>::quiet_NaN();
   /** @} */
   /** Ranges along the axes of the anisotropy by that of the variogram, > 0. */
@@ -116,7 +116,7 @@ struct PCL_UVOL_EXPORTS KrigingParameters {
     using Own = KrigingParameters;
     return std::make_tuple(Member{"variogram", &Own::variogram},
                            Member{"nugget", &Own::nugget},
-                           Member{"sill", &Own::sill},
+                           Member{"psill", &Own::psill},
                            Member{"range", &Own::range},
                            Member{"ratios", &Own::ratios},
                            Member{"rotation", &Own::rotation},

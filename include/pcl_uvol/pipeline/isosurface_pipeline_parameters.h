@@ -101,8 +101,8 @@ struct PCL_UVOL_EXPORTS IsosurfacePipelineParameters {
    */
   IsosurfaceParameters isosurface;
   /** Take the scale from the samples instead of isosurface.scale: from how fast the
-   * field changes along each axis. */
-  bool automatic_scale = false;
+   * field changes along each axis. Not given: see takesAutomaticScale(). */
+  std::optional<bool> automatic_scale;
   /** Turns the axes that the factors of the scale belong to, see
    * InterpolationParameters::rotation. */
   Eigen::Array3d rotation{0.0, 0.0, 0.0};
@@ -147,6 +147,15 @@ struct PCL_UVOL_EXPORTS IsosurfacePipelineParameters {
    * Pieces, their rims and handles are then those of the mesh whose images are one
    * vertex. */
   PeriodicMesh periodic_mesh = PeriodicMesh::Cut;
+
+  /** \return automatic_scale; not given, true if gaps are filled and the factors of the
+   * scale are 1: what kriging predicts between lines depends on distances that mean
+   * something. */
+  bool
+  takesAutomaticScale() const
+  {
+    return automatic_scale.value_or(fill_gaps && (isosurface.scale == 1.0f).all());
+  }
 
   /** \return The members under the names that JSON has for them. */
   static auto

@@ -13,6 +13,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -98,10 +99,16 @@ struct GapFilling {
   double range = 0.0;
   /** Nugget and partial sill (the sill without the nugget) of the variogram, in squared
    * units of the field. */
-  double nugget = 0.0, sill = 0.0;
+  double nugget = 0.0, psill = 0.0;
   /** The index of the measured sample next to each predicted one, which has the other
    * fields of it. */
   std::vector<std::uint32_t> sources;
+};
+
+/** \brief A box that samples repeat in: along an axis with a side of 0 they do not, and
+ * the corner is 0 there. */
+struct SampleBox {
+  std::array<double, 3> low{}, sides{};
 };
 
 /** \brief What comes out. */
@@ -124,6 +131,7 @@ struct PCL_UVOL_EXPORTS IsosurfaceResult {
   std::string field;                  ///< that was taken
   Eigen::Array3f scale;               ///< that was taken
   Interpolation interpolation = Interpolation::Auto; ///< that was taken
+  std::optional<SampleBox> box; ///< that the samples repeat in, if one was asked for
   /** With an automatic scale: how it was found. */
   std::optional<ScaleChoice> scale_choice;
   /** With `smooth`: one per isovalue; spacing 0 where there was no surface to smooth.

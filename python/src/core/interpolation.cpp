@@ -190,11 +190,11 @@ public:
     const std::vector<std::string>& names = interpolator_->getNames();
     for (std::size_t field = 0; field < names.size(); ++field)
       if (const auto found = interpolator_->findVariogram(field);
-          found && found->model.nugget + found->model.sill > 0.0) {
+          found && found->model.nugget + found->model.psill > 0.0) {
         py::dict dict;
         dict["kind"] = toWord(found->model.kind);
         dict["nugget"] = found->model.nugget;
-        dict["sill"] = found->model.sill;
+        dict["psill"] = found->model.psill;
         dict["range"] = found->model.range;
         dict["distances"] = toColumn(found->empirical.all.distance);
         dict["values"] = toColumn(found->empirical.all.value);

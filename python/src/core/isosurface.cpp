@@ -113,7 +113,7 @@ describe(const IsosurfaceResult& result)
     gaps["spacing"] = result.gaps->spacing;
     gaps["range"] = result.gaps->range;
     gaps["nugget"] = result.gaps->nugget;
-    gaps["sill"] = result.gaps->sill;
+    gaps["psill"] = result.gaps->psill;
     report["gaps"] = gaps;
   }
   if (!result.pieces.empty()) {

@@ -126,15 +126,16 @@ generateSplats(const DatasetPtr& dataset,
   return py::make_tuple(withCloud(*dataset, std::move(cloud)), report);
 }
 
-/** Splats as viewers of 3D Gaussian splats read them, without an origin. */
-DatasetPtr
+/** Splats as viewers of 3D Gaussian splats read them, and warnings. */
+py::tuple
 describeGaussians(const Dataset& splats, const std::string& color)
 {
-  auto gaussians = std::make_shared<Dataset>();
   const CloudView view = viewOf(splats.cloud);
   const std::string field = resolveColor(view, color);
-  gaussians->cloud = makeGaussians(view, field, usualColorMapping(view, field));
-  return gaussians;
+  Report report;
+  const auto gaussians = std::make_shared<Dataset>(
+      makeGaussians(splats, field, usualColorMapping(view, field), report));
+  return py::make_tuple(gaussians, toDicts(report.warnings));
 }
 
 } // namespace

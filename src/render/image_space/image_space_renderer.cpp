@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "common/memory.h"
 #include "common/parallel.h"
 #include "common/scalar_field.h"
 #include "render/image_space/cpu_backend.h"
@@ -6,6 +7,7 @@
 #include "render/image_space/layer_blend.h"
 #include "render/image_space/wide_silhouettes.h"
 #include "render/lighting.h"
+#include "render/memory_need.h"
 #include "render/point_colors.h"
 #include <pcl_uvol/common/point_types.h>
 #include <pcl_uvol/render/image_space/image_space_renderer.h>
@@ -128,6 +130,13 @@ ImageSpaceRendererBase::prepare(const CloudView& cloud,
   if (surface_ && indices == drawn_)
     return *surface_;
   detail::checkIndices(*indices, cloud.count, "ImageSpaceRenderer");
+  const double scale = std::max(supersampling_, 1);
+  checkMemoryOf("A picture",
+                indices->size(),
+                pictureBytes({static_cast<double>(indices->size()),
+                              scale * width_ * scale * height_,
+                              opacities_.size(),
+                              settings_.silhouettes && supersampling_ > 1}));
   surface_report_ = Report();
   if (prepared_) {
     if (prepared_->count_ != cloud.count || indices->size() != cloud.count)
