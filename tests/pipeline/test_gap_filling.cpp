@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <memory>
 #include <numeric>
 #include <optional>
@@ -75,6 +76,17 @@ makeParameters(bool fills)
   return parameters;
 }
 
+/** What becomes of that many profiles, computed once for all tests. */
+const IsosurfaceResult&
+fillProfiles(std::size_t count)
+{
+  static std::map<std::size_t, IsosurfaceResult> results;
+  const auto [result, is_new] = results.try_emplace(count);
+  if (is_new)
+    result->second = uvol_test::runPipeline(makeProfiles(count), makeParameters(true));
+  return result->second;
+}
+
 bool
 isPredicted(const PointIso& point)
 {
@@ -105,8 +117,7 @@ TEST(GapFilling, IsAdvisedAsOtherOptionsThatWereNotGiven)
 /** Layers are not lines with gaps between, and fits to them know a plane. */
 TEST(GapFilling, SaysWhereItMakesTheSurfaceWorse)
 {
-  EXPECT_FALSE(uvol_test::findWarning(
-      uvol_test::runPipeline(makeProfiles(40), makeParameters(true)), "worse_in_gaps"));
+  EXPECT_FALSE(uvol_test::findWarning(fillProfiles(40), "worse_in_gaps"));
   uvol_test::Random random(4);
   pcl::PointCloud<pcl::PointXYZI> cells;
   for (int i = 0; i < 12 * 12 * 60; ++i) {
@@ -129,10 +140,9 @@ TEST(GapFilling, SaysWhereItMakesTheSurfaceWorse)
 TEST(GapFilling, KeepsWhatIsKnownOnProfilesAndBetweenThem)
 {
   IsosurfacePipelineParameters parameters = makeParameters(true);
-  const auto samples = makeProfiles(40);
-  const IsosurfaceResult all = uvol_test::runPipeline(samples, parameters);
+  const IsosurfaceResult& all = fillProfiles(40);
   parameters.automatic_max_error = true;
-  const IsosurfaceResult known = uvol_test::runPipeline(samples, parameters);
+  const IsosurfaceResult known = uvol_test::runPipeline(makeProfiles(40), parameters);
   const auto count = [&](const IsosurfaceResult& result, bool predicted) {
     const auto points = uvol_test::toIsopoints(result);
     return std::count_if(points.begin(), points.end(), [&](const PointIso& point) {
@@ -256,8 +266,7 @@ TEST(GapFilling, CountsWhatWentWhereNothingIsLeft)
 
 TEST(GapFilling, FollowsTheFloorBetweenProfiles)
 {
-  const auto samples = makeProfiles(80);
-  const auto result = uvol_test::runPipeline(samples, makeParameters(true));
+  const IsosurfaceResult& result = fillProfiles(80);
   ASSERT_TRUE(result.gaps);
   EXPECT_GT(result.gaps->predicted, 500u);
   EXPECT_EQ(result.gaps->predicted, result.report.getCount("predicted_samples"));
@@ -285,26 +294,38 @@ TEST(GapFilling, FollowsTheFloorBetweenProfiles)
   EXPECT_GT(cosines / count, 0.85); // to lower values, downwards
 }
 
-/** How far a place lies outside of the convex hull of some others, at least; below 0
- * inside. */
-double
-distanceOutside(const Eigen::Vector2d& place, const std::vector<Eigen::Vector2d>& all)
-{
-  double distance = -1.0;
-  for (const Eigen::Vector2d& a : all)
-    for (const Eigen::Vector2d& b : all) {
-      if (a == b)
-        continue;
-      const Eigen::Vector2d out = Eigen::Vector2d(b - a).unitOrthogonal();
-      const bool is_side =
-          std::all_of(all.begin(), all.end(), [&](const Eigen::Vector2d& other) {
-            return out.dot(other - a) <= 1e-12;
-          });
-      if (is_side)
-        distance = std::max(distance, out.dot(place - a));
-    }
-  return distance;
-}
+/** The convex hull of some places, from all pairs of them. */
+class BruteForceHull {
+public:
+  explicit BruteForceHull(const std::vector<Eigen::Vector2d>& all)
+  {
+    for (const Eigen::Vector2d& a : all)
+      for (const Eigen::Vector2d& b : all) {
+        if (a == b)
+          continue;
+        const Eigen::Vector2d out = Eigen::Vector2d(b - a).unitOrthogonal();
+        const bool is_side =
+            std::all_of(all.begin(), all.end(), [&](const Eigen::Vector2d& other) {
+              return out.dot(other - a) <= 1e-12;
+            });
+        if (is_side)
+          sides_.emplace_back(a, out);
+      }
+  }
+
+  /** How far a place lies outside, at least; below 0 inside. */
+  double
+  distanceOutside(const Eigen::Vector2d& place) const
+  {
+    double distance = -1.0;
+    for (const auto& [start, out] : sides_)
+      distance = std::max(distance, out.dot(place - start));
+    return distance;
+  }
+
+private:
+  std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> sides_;
+};
 
 TEST(GapFilling, FillsWhatLiesBetweenProfilesAndNothingAroundThem)
 {
@@ -315,6 +336,7 @@ TEST(GapFilling, FillsWhatLiesBetweenProfilesAndNothingAroundThem)
     profiles.push_back(
         Eigen::Map<const Eigen::Vector2f>(viewOf(samples->cloud).xyz(60 * profile))
             .cast<double>());
+  const BruteForceHull hull(profiles);
   auto parameters = makeParameters(true);
   parameters.isosurface.isovalues = {0.0, 0.48}; // the other one leaves by the top
   const auto result = uvol_test::runPipeline(samples, parameters);
@@ -329,14 +351,14 @@ TEST(GapFilling, FillsWhatLiesBetweenProfilesAndNothingAroundThem)
       continue;
     at_top += point.z > 0.98f;
     EXPECT_LE(static_cast<double>(point.z), 1.0 + 2.0 * spacing);
-    EXPECT_LE(distanceOutside(place, profiles), 2.0 * spacing);
+    EXPECT_LE(hull.distanceOutside(place), 2.0 * spacing);
   }
   EXPECT_GT(at_top, 100u);
   std::size_t inside = 0, covered = 0;
   for (int i = 0; i < 40; ++i)
     for (int j = 0; j < 40; ++j) {
       const Eigen::Vector2d place(i / 39.0, j / 39.0);
-      if (distanceOutside(place, profiles) > 0.0)
+      if (hull.distanceOutside(place) > 0.0)
         continue;
       ++inside;
       covered += std::any_of(
@@ -353,7 +375,7 @@ TEST(GapFilling, FillsWhatLiesBetweenProfilesAndNothingAroundThem)
  * root of its edge does not. */
 TEST(GapFilling, IsopointsLieOnOneSurface)
 {
-  const auto result = uvol_test::runPipeline(makeProfiles(30), makeParameters(true));
+  const IsosurfaceResult& result = fillProfiles(30);
   std::vector<PointIso> predicted;
   for (const PointIso& point : uvol_test::toIsopoints(result))
     if (isPredicted(point))
@@ -394,6 +416,7 @@ TEST(GapFilling, LeavesOutIsopointsThatAreMovedOutOfTheHull)
     if (i % 60 == 0)
       profiles.emplace_back(Eigen::Vector2f(cloud[i].x, cloud[i].y).cast<double>());
   }
+  const BruteForceHull hull(profiles);
   pcl::toPCLPointCloud2(cloud, samples->cloud);
   auto parameters = makeParameters(true);
   parameters.isosurface.isovalues = {-0.3, 0.0, 0.3};
@@ -405,7 +428,7 @@ TEST(GapFilling, LeavesOutIsopointsThatAreMovedOutOfTheHull)
       continue;
     ++predicted;
     const Eigen::Vector2d place = Eigen::Vector2f(point.x, point.y).cast<double>();
-    EXPECT_LE(distanceOutside(place, profiles), most);
+    EXPECT_LE(hull.distanceOutside(place), most);
     EXPECT_LE(static_cast<double>(point.z - top), most);
     EXPECT_LE(-static_cast<double>(point.z), most);
   }
@@ -479,7 +502,7 @@ TEST(GapFilling, PredictsNothingBeyondTheRange)
 
 TEST(GapFilling, TellsConfidenceOfAllIsopoints)
 {
-  const auto result = uvol_test::runPipeline(makeProfiles(30), makeParameters(true));
+  const IsosurfaceResult& result = fillProfiles(30);
   const auto points = uvol_test::toIsopoints(result);
   const CloudView view = viewOf(result.surface.cloud);
   const ScalarField confidence(view.fields, "confidence"),
@@ -507,11 +530,9 @@ turnAround(const Dataset& samples)
 
 TEST(GapFilling, DependsNotOnTheOrderOfSamples)
 {
-  const auto samples = makeProfiles(30);
-  const auto a =
-      uvol_test::toIsopoints(uvol_test::runPipeline(samples, makeParameters(true)));
+  const auto a = uvol_test::toIsopoints(fillProfiles(30));
   const auto b = uvol_test::toIsopoints(
-      uvol_test::runPipeline(turnAround(*samples), makeParameters(true)));
+      uvol_test::runPipeline(turnAround(*makeProfiles(30)), makeParameters(true)));
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i)
     if (isPredicted(a[i])) {
@@ -568,8 +589,7 @@ TEST(GapFilling, DependsNeitherOnThreadsNorOnUnits)
 TEST(GapFilling, WarnsWhereKrigingExplainsLittle)
 {
   const auto samples = makeProfiles(30);
-  EXPECT_TRUE(
-      uvol_test::runPipeline(samples, makeParameters(true)).report.warnings.empty());
+  EXPECT_TRUE(fillProfiles(30).report.warnings.empty());
   uvol_test::Random random(9);
   std::vector<float> noise;
   const CloudView view = viewOf(samples->cloud);
@@ -588,7 +608,7 @@ TEST(GapFilling, WarnsWhereKrigingExplainsLittle)
 TEST(GapFilling, FindsTheRangeOfAFieldWithSpikes)
 {
   const auto samples = makeProfiles(80);
-  const auto clean = uvol_test::runPipeline(samples, makeParameters(true));
+  const IsosurfaceResult& clean = fillProfiles(80);
   uvol_test::Random random(11);
   std::vector<float> spiked;
   const CloudView view = viewOf(samples->cloud);

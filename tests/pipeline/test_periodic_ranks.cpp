@@ -166,7 +166,7 @@ makeHollow(std::size_t count)
 
 TEST(PeriodicRanks, ReachAsFarAsUnevenSamplesNeed)
 {
-  const Samples samples = makeCrowd(3000);
+  const Samples samples = makeCrowd(1500);
   const auto alone = expectSurfaceOfOne(samples, askFor({0.25}));
   EXPECT_GT(alone.surface.cloud.width, 300u);
   IsosurfacePipelineParameters parameters = askFor({0.25});

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <utility>
@@ -83,11 +84,15 @@ double
 distanceToTriangles(const Mesh& mesh, const Vector3d& place)
 {
   double least = std::numeric_limits<double>::infinity();
-  for (const Triangle& t : mesh.triangles)
-    least = std::min(
-        least,
-        distanceToTriangle(
-            place, vertexOf(mesh, t[0]), vertexOf(mesh, t[1]), vertexOf(mesh, t[2])));
+  for (const Triangle& t : mesh.triangles) {
+    const Vector3d a = vertexOf(mesh, t[0]), b = vertexOf(mesh, t[1]),
+                   c = vertexOf(mesh, t[2]);
+    // No place of a triangle is farther from a corner than one of the other corners.
+    const double extent =
+        std::sqrt(std::max((b - a).squaredNorm(), (c - a).squaredNorm()));
+    if ((place - a).norm() - extent < least)
+      least = std::min(least, distanceToTriangle(place, a, b, c));
+  }
   return least;
 }
 
