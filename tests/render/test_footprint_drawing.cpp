@@ -203,7 +203,7 @@ addRows(pcl::PointCloud<pcl::PointNormal>& cloud,
 
 TEST(Footprints, CloseGapsBetweenRowsOfFinePixels)
 {
-  constexpr int size = 60;
+  constexpr int size = 40;
   Camera camera;
   camera.eye = {0.0, 0.0, 100.0};
   camera.at = Eigen::Vector3d::Zero();
