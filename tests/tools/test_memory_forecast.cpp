@@ -99,6 +99,16 @@ protected:
            run.tool == std::string("uvol_levelset");
   }
 
+  /** Those that take seconds for 300,000 samples get fewer: the forecast is as many
+   * times the peak, within 5 %. */
+  static bool
+  isSlow()
+  {
+    const ToolRun& run = GetParam();
+    return std::string(run.options).find("grad(") != std::string::npos ||
+           std::string(run.options).find("-points") != std::string::npos;
+  }
+
   bool
   isVolume() const
   {
@@ -127,14 +137,16 @@ TEST_P(MemoryForecast, IsEnoughAndNotTwiceThePeak)
   if (!isVolume()) {
     // isopoints of spheres, with all their fields
     in = makeOnce("in.ply",
-                  "uvol_generate samples.pcd -field sphere -n 1500000 && "
+                  "uvol_generate samples.pcd -field sphere -n 1000000 && "
                   "uvol_isosurface samples.pcd in.ply -interpolation linear "
                   "-iso 0.1,0.2,0.3,0.4");
     ASSERT_GT(pcl_uvol::loadDataset(in).cloud.width, 100000u);
   }
   else if (isNoisy())
     in = makeOnce("noisy.pcd",
-                  "uvol_generate noisy.pcd -field torus -n 100000 -noise 0.05");
+                  "uvol_generate noisy.pcd -field torus -n 50000 -noise 0.05");
+  else if (isSlow())
+    in = makeOnce("few.pcd", "uvol_generate few.pcd -field torus -n 120000");
   else
     in = makeOnce("in.pcd", "uvol_generate in.pcd -field torus -n 300000");
   std::filesystem::create_symlink(in, folder_ / GetParam().input);
