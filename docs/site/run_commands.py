@@ -20,7 +20,7 @@ import tempfile
 
 BLOCK = re.compile(r"^(?:<!-- (not run|long): [^\n]+ -->\n)?```sh\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 INDENTED = re.compile(r"\n\n {4}((?:uvol|cmake|mpirun)[ _].*)")
-PICTURE = re.compile(r"\]\((\.\./pictures/((?:[a-z]+/)?)([^)/]+\.png))\)")
+PICTURE = re.compile(r"\]\(((?:\.\./)?pictures/((?:[a-z]+/)?)([^)/]+\.png))\)")
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 LINKED = ("tools", "examples")
 
