@@ -24,7 +24,7 @@ namespace {
 using Cloud = pcl::PointCloud<pcl::PointXYZI>;
 using Surface = pcl::PointCloud<pcl_uvol::PointIso>;
 
-/** One row for the isopoints of a kind. */
+/** One row, as CSV, for the isopoints of a kind. */
 void
 printRow(const std::string& name,
          const Surface& surface,
@@ -36,12 +36,12 @@ printRow(const std::string& name,
     if (counts(surface[i]))
       ratios.push_back(surface[i].error / std::max(deviations[i], 1e-30));
   if (ratios.empty()) {
-    std::printf("%-44s %7d\n", name.c_str(), 0);
+    std::printf("\"%s\",0,,\n", name.c_str());
     return;
   }
   const auto covered =
       std::count_if(ratios.begin(), ratios.end(), [](double r) { return r >= 1.0; });
-  std::printf("%-44s %7zu %9.1f %9.3g\n",
+  std::printf("\"%s\",%zu,%.1f,%.3g\n",
               name.c_str(),
               ratios.size(),
               100.0 * static_cast<double>(covered) / static_cast<double>(ratios.size()),
@@ -267,7 +267,7 @@ main(int argc, char** argv)
   const auto isWanted = [&](const char* group) {
     return argc <= 3 || std::string(argv[3]) == group;
   };
-  std::printf("%-44s %7s %9s %9s\n", "samples", "points", "covered_%", "ratio");
+  std::puts("samples,isopoints,covered,median ratio");
   if (isWanted("scattered"))
     printScattered(n, seed);
   const int side = static_cast<int>(std::cbrt(static_cast<double>(n)) + 1e-9);

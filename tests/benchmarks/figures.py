@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Figures beside peers: runs the benchmarks that docs/benchmarks.md shows, keeps what they print as JSON in
-tests/benchmarks/results, and writes the tables of the page from there.
+"""Writes the tables of docs/benchmarks.md and tests/benchmarks/README.md from the files in tests/benchmarks/results.
 
-usage: figures.py run BIN_FOLDER [NAME...]   NAMEs of MEASUREMENTS, all of them without
-       figures.py write | check              the tables of the page; check fails where they are not up to date
+usage: figures.py run BIN_FOLDER [NAME...]   run the benchmarks of docs/benchmarks.md (default: all of MEASUREMENTS), and
+                                             store what they print as NAME.json
+       PROGRAM | figures.py keep NAME        store a table that a program prints as NAME.csv
+       figures.py write | check              write the tables of both pages; check fails if they are not up to date
 """
 import datetime
 import json
@@ -15,6 +16,8 @@ import shlex
 import subprocess
 import sys
 import tempfile
+
+import tables
 
 HERE = pathlib.Path(__file__).resolve().parent
 RESULTS = HERE / "results"
@@ -177,16 +180,28 @@ def update(text):
     return f"{before}{begin}\n{write_tables()}\n\n{end}{after}"
 
 
+PAGES = {PAGE: update, tables.PAGE: tables.update_page}
+
+
 def main():
     words = sys.argv[1:]
     if len(words) > 1 and words[0] == "run" and set(words[2:]) <= set(MEASUREMENTS):
         for name in words[2:] or MEASUREMENTS:
             measure(name, pathlib.Path(words[1]).resolve())
+    elif len(words) == 2 and words[0] == "keep":
+        tables.keep_table(words[1], sys.stdin.read())
     elif words == ["write"]:
-        PAGE.write_text(update(PAGE.read_text()))
+        for page, update_page in PAGES.items():
+            page.write_text(update_page(page.read_text()))
     elif words == ["check"]:
-        text = PAGE.read_text()
-        sys.exit(0 if update(text) == text else f"{PAGE} is not what its results say: run {sys.argv[0]} write.")
+        old = [str(page) for page, update_page in PAGES.items() if update_page(page.read_text()) != page.read_text()]
+        if old:
+            sys.exit(f"The results have other numbers than {' and '.join(old)}. Run {sys.argv[0]} write.")
+        unmarked = tables.count_unmarked(tables.PAGE.read_text())
+        if unmarked:
+            sys.exit(f"{unmarked} tables of {tables.PAGE} have no comment with the name of their results above them.")
+        unused = tables.list_unused(tables.PAGE.read_text())
+        sys.exit(f"{tables.PAGE} has no table of {', '.join(unused)}." if unused else 0)
     else:
         sys.exit(__doc__)
 
