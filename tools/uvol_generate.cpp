@@ -226,7 +226,7 @@ run(int argc, char** argv)
                  listScatters(),
                  arguments.scatter,
                  "how samples of a field are scattered; tracks of a robot, casts of a "
-                 "ship and drill holes have a field that tells the lines apart");
+                 "ship and drill holes have a field that identifies the line");
   options.number(
       "noise",
       arguments.noise,

@@ -49,7 +49,7 @@ declare(Options& options, Arguments& arguments)
       "label",
       "name",
       arguments.label,
-      "field that tells the clusters, negative for noise (default: label, else "
+      "field with the cluster of each point, negative for noise (default: label, else "
       "they are found by density)");
   options.group("Output");
   options.output("axes", "out.csv", arguments.axes, "write the axis of every attribute")

@@ -131,11 +131,12 @@ def judge_docstrings(text):
 
 
 def judge_program(text):
-    """Of string literals of several words."""
+    """Of string literals of several words. Lines with columns, as in lists of keys, are texts of their own."""
     for row in re.finditer(r'(?:"(?:[^"\\\n]|\\.)*"\s*)+', text):
         words = "".join(re.findall(r'"((?:[^"\\\n]|\\.)*)"', row.group(0))).replace("\\n", "\n")
-        for found in judge(plain(words), MOST_IN_MESSAGES) if count_words(words) > 3 else ():
-            yield text.count("\n", 0, row.start()) + 1, found
+        for line in re.split(r"\n(?=[^\n]*\S  )", words):
+            for found in judge(plain(line), MOST_IN_MESSAGES) if count_words(line) > 3 else ():
+                yield text.count("\n", 0, row.start()) + 1, found
 
 
 def list_sources(root):

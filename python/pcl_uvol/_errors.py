@@ -8,7 +8,7 @@ class FieldError(KeyError):
     Attributes
     ----------
     code : str or None
-        What went wrong, as one word; None where it is told in words only.
+        What went wrong, as one word; None if there is only a text.
 
     Examples
     --------
@@ -31,7 +31,7 @@ class DivergedError(ArithmeticError):
     Attributes
     ----------
     code : str or None
-        What went wrong, as one word; None where it is told in words only.
+        What went wrong, as one word; None if there is only a text.
 
     Examples
     --------
@@ -49,7 +49,7 @@ class ResultWarning(UserWarning):
     Attributes
     ----------
     code : str
-        What is told, as one word that stays when the text changes.
+        Kind of warning, as one word that stays when the text changes.
     values : dict
         The numbers and names in the text.
 

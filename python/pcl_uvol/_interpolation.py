@@ -26,8 +26,8 @@ class Answers:
     gradients : numpy.ndarray or None
         Per unit of length, with an axis of three at the end; None without `gradients=True`.
     support : numpy.ndarray of uint8
-        Data coverage: 1 samples all around, 2 in a gap of the sampling, 3 at the rim of a gap or of
-        the data, 5 samples that do not determine the model, 6 position not finite, 7 outside.
+        Data coverage: 1 samples all around; 2 in a gap of the sampling; 3 at the rim of a gap or of
+        the data; 5 samples that do not determine the model; 6 position not finite; 7 outside.
     report : dict
         Counts, milliseconds and warnings.
     parameters : dict

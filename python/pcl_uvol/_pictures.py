@@ -21,7 +21,7 @@ class Picture:
     pixels : numpy.ndarray of uint8, shape (height, width, 4)
         Red, green, blue and opacity, the first row on top.
     field : str
-        What it is coloured by; "" for the colour of the surface.
+        Name of the field that gives the colours; "" for the colour of the surface.
     range : tuple of float
         The values at the ends of the colours.
     report : dict

@@ -21,8 +21,8 @@ class Surface(Drawable, Points):
     convex), and
 
     - `error`: estimated distance to the true surface, in units of length; NaN: no estimate;
-    - `support`: data coverage: 1 samples all around, 2 in a gap of the sampling, 3 at the rim of a
-      gap or of the data, 4 between samples that `fill_gaps` predicted, 0 not examined;
+    - `support`: data coverage: 1 samples all around; 2 in a gap of the sampling; 3 at the rim of a
+      gap or of the data; 4 between samples that `fill_gaps` predicted; 0 not examined;
     - `edge_length`: distance of the two samples that the point is between;
     - `method`: 1 on the edge between these samples, 2 on a local fit, 3 on the kriged surface;
     - `orientation`: source of the normal: 1 edge, 2 fit, 3 principal components, 4 edges around,

@@ -220,8 +220,8 @@ public:
       const bool is_timed = argument.find(time_place) != std::string::npos;
       if (is_timed && !time)
         throw pcl_uvol::IOError("'" + series_.input->insert(number) +
-                                "' has no header that names its time, which {t} stands "
-                                "for.");
+                                "' has no header that names its time, which {t} "
+                                "represents.");
       if (is_timed)
         insertTime(printTime(*time), argument);
       if (is_numbered || (is_timed && timed_.insert(argument).second))
