@@ -1,8 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Writes the warnings and errors of docs/reference/errors.md, in alphabetical order, from src/common/warning_texts.cpp
-and error_texts.cpp. A warning has a heading that one can link to, its text, and what to do; an error is a row of a table.
-What to do is kept from the page. Lists codes that the sources use but no table has, and codes that no source uses.
+and error_texts.cpp. Each has a heading that you can link to, its text, and what to do, which is kept from the page. Lists codes that the sources use but no table has, and codes that no source uses.
 
 usage: list_messages.py REPOSITORY [--check]     --check: list what would change, with exit code 1; write nothing
 """
@@ -16,7 +15,7 @@ BEGIN, END = "<!-- messages: made by docs/site/list_messages.py -->\n", "<!-- en
 LITERALS = r'((?:"(?:[^"\\\n]|\\.)*"\s*)+)'
 ROW = re.compile(r'\{"([a-z0-9_]+)",\s*' + LITERALS + r"\}")
 USED = re.compile(r'(?:\b(?:warn|Message|throw (?:\w+::)*\w+)\(|push_back\(\{)\s*"([a-z0-9_]+)",\s*[{v]')
-ADVICE = re.compile(r"^\| `([a-z0-9_]+)` \|.*\| (.*?) ?\|$|^### `([a-z0-9_]+)`\n\n> .*\n\n([^#\n].*)$", re.MULTILINE)
+ADVICE = re.compile(r"^### `([a-z0-9_]+)`\n\n> .*\n\n([^#\n].*)$", re.MULTILINE)
 TEXT = "text"  # the code of texts that are in no table
 QUOTED = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
 
@@ -90,13 +89,6 @@ def make_headings(rows, advice):
     return "\n".join(sections)
 
 
-def make_table(rows, advice):
-    lines = ["| code | text | what to do |\n", "|---|---|---|\n"]
-    for code, text in sorted(rows.items()):
-        lines.append(f"| `{code}` | {escaped(readable(text))} | {advice.get(code, '')} |\n".replace("|  |", "| |"))
-    return "".join(lines)
-
-
 def main():
     if len(sys.argv) < 2:
         sys.exit(__doc__)
@@ -111,9 +103,8 @@ def main():
         sys.exit(f"{PAGE} lacks the markers of the table: {BEGIN}{END}")
     before, rest = page.split(BEGIN)
     old, after = rest.split(END)
-    advice = {row or heading: words or paragraph for row, words, heading, paragraph in ADVICE.findall(old)}
-    made = before + BEGIN + "\n".join(f"## {title}\n\n{write(rows, advice)}" for (title, rows), write
-                                      in zip(tables.items(), (make_headings, make_table))) + END + after
+    advice = dict(ADVICE.findall(old))
+    made = before + BEGIN + "\n".join(f"## {title}\n\n{make_headings(rows, advice)}" for title, rows in tables.items()) + END + after
     if made != page:
         if "--check" in sys.argv:
             wrong.append(f"{PAGE} is out of date. Try: python3 docs/site/list_messages.py .")
