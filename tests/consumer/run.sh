@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs a build into a prefix of its own and builds and runs a project that finds it there.
-# usage: run.sh BUILD_FOLDER [all]: the program of the quickstart; all: algorithms of PCL, windows and ranks as well
+# usage: run.sh BUILD_FOLDER [all]: the programs of docs/quickstart.md and docs/guide/library.md; all: algorithms of PCL,
+# windows and ranks as well
 set -euo pipefail
 source_dir=$(cd "$(dirname "$0")" && pwd)
 folder=$(mktemp -d)
@@ -20,14 +21,19 @@ if [ "${2:-}" = all ]; then
     test "$("$folder/build/ranks_consumer")" = "rank 0 of 1"
   fi
 fi
-# The project and the program of the quickstart, as they are printed there, in tabs.
-block() { sed -n "/^    \`\`\`$1\$/,/^    \`\`\`\$/p" "$source_dir/../../docs/quickstart.md" | sed '/^    ```/d; s/^    //'; }
-mkdir "$folder/quickstart"
-block cmake >"$folder/quickstart/CMakeLists.txt"
-block cpp >"$folder/quickstart/main.cpp"
-cmake -S "$folder/quickstart" -B "$folder/quickstart/build" -G Ninja -DCMAKE_PREFIX_PATH="$folder/prefix" -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE=-DNDEBUG
-cmake --build "$folder/quickstart/build"
-"$folder/quickstart/build/mine" | grep -E '^[1-9][0-9]* isopoints'
+# The projects and programs of two pages, as they are printed there: the first block of each kind, which may be in a tab.
+block() { awk -v mark="\`\`\`$2" '{sub(/^    /, "")} /^```/ && on {exit} on {print} $0 == mark {on = 1}' "$source_dir/../../docs/$1.md"; }
+for page in quickstart guide/library; do
+  project="$folder/$page"
+  mkdir -p "$project"
+  block "$page" cmake >"$project/CMakeLists.txt"
+  block "$page" cpp >"$project/main.cpp"
+  cmake -S "$project" -B "$project/build" -G Ninja -DCMAKE_PREFIX_PATH="$folder/prefix" -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE=-DNDEBUG
+  cmake --build "$project/build"
+  "$project/build/mine" | tee "$folder/out"
+  grep -Eq '^[1-9][0-9]* isopoints' "$folder/out"
+done
+test "$(wc -l <"$folder/out")" = 1 # guide/library.md promises no warning
 "$folder/prefix/bin/uvol_isosurface" -version
 "$folder/prefix/bin/uvol" viewer -version
 test -s "$folder/prefix/share/man/man1/uvol_isosurface.1"
