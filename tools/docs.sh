@@ -30,6 +30,11 @@ done
 sed -E 's#\]\(\.\./docs/#](@#g; s#\]\(\.\./examples/notebooks\)#](@notebooks/sph_star.md)#
   s#\[([^]]*)\]\(\.\.?/[^)]*\)#\1#g; s#\]\(@#](../#g' python/README.md \
   >build/docs/source/guide/python.md
+mkdir build/docs/source/project
+for name in changes:CHANGELOG contributing:CONTRIBUTING security:SECURITY; do
+  sed -E 's#\]\(docs/#](@#g; s#\]\(tests/benchmarks/README\.md#](@benchmarks/measurements.md#g; s#\]\(SECURITY\.md#](project:security.md#g
+    s#\[([^]]*)\]\([a-z.]+/[^)]*\)#\1#g; s#\]\(@#](../#g; s#\]\(project:#](#g' "${name#*:}.md" >"build/docs/source/project/${name%:*}.md"
+done
 python3 docs/site/render_notebooks.py examples/notebooks/*.ipynb build/docs/source/notebooks
 mkdocs build --quiet --strict
 doxygen docs/site/Doxyfile
