@@ -9,7 +9,7 @@ import re
 HERE = pathlib.Path(__file__).resolve().parent
 RESULTS = HERE / "results"
 PAGE = HERE / "README.md"
-TABLE = re.compile(r"(<!-- table: (\w+) -->\n\n)((?:\|.*\n)*)")
+TABLE = re.compile(r"(<!-- table: (\w+) -->\n\n)(?:(?:\|.*\n)+\n*)?")
 
 
 def read_table(text):
@@ -48,7 +48,7 @@ def keep_table(name, text):
 
 
 def update_page(text):
-    return TABLE.sub(lambda table: table.group(1) + format_table(load_table(table.group(2))), text)
+    return TABLE.sub(lambda table: table.group(1) + format_table(load_table(table.group(2))) + "\n", text)
 
 
 def count_unmarked(text):
@@ -59,5 +59,5 @@ def count_unmarked(text):
 
 def list_unused(text):
     """Results that no table shows."""
-    shown = {name for _, name, _ in TABLE.findall(text)}
+    shown = {name for _, name in TABLE.findall(text)}
     return sorted(path.name for path in RESULTS.glob("*.csv") if path.stem not in shown)
