@@ -36,11 +36,15 @@ def load_table(name):
 
 
 def keep_table(name, text):
-    """Stores a printed table. The names of the columns of an existing file stay."""
+    """Stores a printed table. An existing file keeps its columns, which are found by name, or else by their order."""
     rows = read_table(text)
     path = RESULTS / f"{name}.csv"
     if path.exists():
-        rows[0] = load_table(name)[0]
+        names = load_table(name)[0]
+        if set(names) < set(rows[0]):
+            places = [rows[0].index(column) for column in names]
+            rows = [[row[place] for place in places] for row in rows]
+        rows[0] = names
     if any(len(row) != len(rows[0]) for row in rows):
         raise ValueError(f"{path} needs {len(rows[0])} columns in each row.")
     with open(path, "w", newline="") as file:
