@@ -234,18 +234,10 @@ loadCells(const Arguments& arguments,
       !arguments.reading.getWhere().empty())
     return nullptr;
   const StepTimer timer(report, "cells");
-  try {
-    auto cells = pcl_uvol::loadCells(arguments.input, load, samples);
-    if (cells)
-      report.count("cells", cells->size());
-    return cells;
-  }
-  catch (const pcl_uvol::IOError& error) {
-    report.warn(
-        "cells_not_used",
-        {{"reason", error.asMessage().text(pcl_uvol::ParameterNames::Options)}});
-    return nullptr;
-  }
+  auto cells = pcl_uvol::findCells(arguments.input, load, samples, report);
+  if (cells)
+    report.count("cells", cells->size());
+  return cells;
 }
 
 int

@@ -25,11 +25,31 @@ def read_printed(root):
     return re.sub(r"\{(-[^{}]*)\}", r"\1", "\n".join(match for text in texts for match in LITERAL.findall(text)))
 
 
+def check_parameters(root):
+    """The parameters that messages name exist where they are named: see src/common/message.cpp."""
+    source = (root / "src/common/message.cpp").read_text()
+    listed = {name: set(re.findall(r'"-([a-z-]+)"', re.search(name + r"\[\] = \{(.*?)\}", source, re.DOTALL).group(1)))
+              for name in ("tools_only", "with_property")}
+    tables = "".join((root / "src/common" / f"{kind}_texts.cpp").read_text() for kind in ("warning", "error"))
+    named = set(re.findall(r"\{-([a-z-]+)", tables))
+    python = set(re.findall(r"(\w+): ", (root / "python/pcl_uvol/__init__.pyi").read_text())) | {"viewpoint"}
+    vtk = set(re.findall(r"vtk[GS]et\w*Macro\((\w+)|[GS]et(\w+)\(", "".join(
+        path.read_text() for path in (root / "include/pcl_uvol/filters").glob("*.h"))))
+    properties = {word for words in vtk for word in words}
+    wrong = [f"Python has no parameter for -{name}." for name in sorted(named - listed["tools_only"])
+             if name.replace("-", "_") not in python]
+    for name in sorted(named):
+        in_vtk = "".join("Maximum" if word == "max" else word.capitalize() for word in name.split("-")) in properties
+        if in_vtk != (name in listed["with_property"]):
+            wrong.append(f"-{name} is {'a' if in_vtk else 'no'} property of VTK's filters.")
+    return wrong
+
+
 def main():
     if len(sys.argv) < 3:
         sys.exit(__doc__)
     printed = read_printed(pathlib.Path(sys.argv[1]))
-    unknown = []
+    unknown = check_parameters(pathlib.Path(sys.argv[1]))
     for page in map(pathlib.Path, sys.argv[2:]):
         sentences = QUOTED.findall(page.read_text())
         if not sentences:

@@ -197,7 +197,7 @@ def measure(surface, *, samples=None, curved=True, find_intersections=False, dro
                   "drop_unsure": _parameters.flag(drop_unsure, "drop_unsure")}
     made_with = getattr(surface, "parameters", {})
     if "isosurface" in made_with:  # so that the samples beyond the isovalue are known, and the periodic box
-        parameters.update(field=surface.report["field"], outside=made_with["isosurface"]["outside"],
+        parameters.update(field=made_with["isosurface"]["field"], outside=made_with["isosurface"]["outside"],
                           periodic=made_with["periodic"])
     with listening(progress) as listener:
         figures = _core.measure(vertices._dataset, triangles, None if samples is None else samples._dataset,

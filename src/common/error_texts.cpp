@@ -289,8 +289,7 @@ const MessageText error_rows[] = {
      "No point of the surface has a normal: normals are required to determine the "
      "surface and its outside."},
     {"surface_without_normals",
-     "The surface has neither triangles nor normals. Try: uvol_normals to estimate "
-     "normals."},
+     "The surface has neither triangles nor normals. Try: estimate normals first."},
     {"surface_points_too_few",
      "The points of the surface are too few, or too far apart, to measure its area."},
     {"surface_without_points",
@@ -672,6 +671,7 @@ const MessageText error_rows[] = {
      "files, but not from '{path}'."},
     {"unreadable", "Cannot read '{path}': {reason}."},
     {"unreadable_line", "Cannot read '{path}', line {line}: {reason}."},
+    {"no_such_file", "Cannot read '{path}': there is no such file."},
     {"unwritable", "Cannot write '{path}': {reason}."},
     {"resolution_not_allowed",
      "The resolution of an image is {resolution} dots per inch: it must be 1 to a "

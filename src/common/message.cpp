@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <iterator>
 #include <ostream>
 #include <sstream>
 #include <string_view>
@@ -31,13 +32,44 @@ numberWords(double number, int digits)
   return out.str();
 }
 
-/** "-max-error" or "-mu 0.1" as the front end writes it. */
+/** Options of the tools that are no parameter of C++ and Python. */
+constexpr std::string_view tools_only[] = {
+    "-block", "-max-memory", "-no-shading", "-position", "-where"};
+
+/** Options that VTK's filters have as properties. */
+constexpr std::string_view with_property[] = {"-drop-bridged",
+                                              "-extrapolate",
+                                              "-field",
+                                              "-fill-gaps",
+                                              "-interpolation",
+                                              "-max-error",
+                                              "-model",
+                                              "-mu",
+                                              "-outside",
+                                              "-scale",
+                                              "-smooth"};
+
+bool
+hasParameter(std::string_view option, ParameterNames names)
+{
+  const auto is_in = [&](const auto& list) {
+    return std::find(std::begin(list), std::end(list), option) != std::end(list);
+  };
+  return names == ParameterNames::Members ? !is_in(tools_only) : is_in(with_property);
+}
+
+/** "-max-error" or "-mu 0.1" as the front end writes it; an option of the tools where
+ * it has no such parameter. */
 std::string
 parameterWords(std::string_view option, ParameterNames names)
 {
   if (names == ParameterNames::Options)
     return std::string(option);
   const std::size_t end = std::min(option.find(' '), option.size());
+  if (!hasParameter(option.substr(0, end), names))
+    return std::string(option) + " (tools)";
+  if (option == "-viewpoint")
+    return "view_point";
   std::istringstream parts{std::string(option.substr(1, end - 1))};
   std::string words;
   for (std::string word; std::getline(parts, word, '-');)

@@ -32,4 +32,19 @@ loadCells(const std::string& path, const LoadOptions& options, const Dataset& sa
       path, [&] { return io::vtkLibrary().readCells(path, options, samples); });
 }
 
+std::shared_ptr<const detail::SampleCells>
+findCells(const std::string& path,
+          const LoadOptions& options,
+          const Dataset& samples,
+          Report& report)
+{
+  try {
+    return loadCells(path, options, samples);
+  }
+  catch (const IOError& error) {
+    report.warn("cells_not_used", {{"reason", error.message()}});
+    return nullptr;
+  }
+}
+
 } // namespace pcl_uvol

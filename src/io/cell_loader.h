@@ -4,6 +4,7 @@
 
 #include "interpolation/sample_cells.h"
 #include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/io/dataset.h>
 
 #include <memory>
@@ -23,5 +24,12 @@ namespace pcl_uvol {
  * \throws IOError */
 PCL_UVOL_EXPORTS std::shared_ptr<const detail::SampleCells>
 loadCells(const std::string& path, const LoadOptions& options, const Dataset& samples);
+
+/** \brief The same; cells that cannot be read are null and a warning. */
+PCL_UVOL_EXPORTS std::shared_ptr<const detail::SampleCells>
+findCells(const std::string& path,
+          const LoadOptions& options,
+          const Dataset& samples,
+          Report& report);
 
 } // namespace pcl_uvol

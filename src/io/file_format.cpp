@@ -56,7 +56,9 @@ constexpr struct {
     {".msh", "meshio convert in.msh out.vtu converts it"},
     {".xdmf", "meshio convert in.xdmf out.vtu converts it"},
     {".vtr",
-     "-cells reads data of its cells, and ParaView saves those of its points as .vts"},
+     "data of its cells can be read as points at their centres, and ParaView saves "
+     "those "
+     "of its points as .vts"},
     {".vti", "uvol_generate in.vti out.pcd makes points of a volume"},
     {".nrrd", "uvol_generate in.nrrd out.pcd makes points of a volume"},
     {".nhdr", "uvol_generate in.nhdr out.pcd makes points of a volume"},

@@ -93,8 +93,10 @@ InputFile::InputFile(const std::string& path, Packing packing)
   }
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0)
-    throwUnreadable(path,
-                    errno == ENOENT ? "there is no such file" : std::strerror(errno));
+    throw errno == ENOENT
+        ? IOError("no_such_file", {{"path", printable(path)}})
+        : IOError("unreadable",
+                  {{"path", printable(path)}, {"reason", std::strerror(errno)}});
   if (S_ISDIR(status.st_mode))
     throwUnreadable(path, "it is a directory");
   if (!S_ISREG(status.st_mode))

@@ -8,6 +8,7 @@
 #include "neighbors/sampling.h"
 #include "pipeline/isopoint_choice.h"
 #include "pipeline/isosurface_run.h"
+#include "pipeline/periodic_surface.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>
@@ -135,7 +136,7 @@ public:
   }
 
   void
-  enter(IsosurfacePipelineParameters& parameters, Report&) override
+  enter(IsosurfacePipelineParameters& parameters, Report& report) override
   {
     if (parameters.smooth || parameters.takesAutomaticScale() || parameters.mesh ||
         parameters.fill_gaps || parameters.outside_value ||
@@ -144,6 +145,7 @@ public:
         parameters.isosurface.neighbors != NeighborSource::KdTree)
       throw InvalidArgument("not_out_of_core", {});
     findField(points_.getHeader(), parameters);
+    warnOfUnusedBox(points_.getHeader(), sidesOf(parameters), report);
   }
 
   ExtractedSurface

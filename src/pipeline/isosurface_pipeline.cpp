@@ -48,7 +48,7 @@ closeOutside(PipelineInput& input, unsigned threads, Report& report)
   IsosurfacePipelineParameters& parameters = input.parameters;
   if (!parameters.outside_value)
     return;
-  parameters.isosurface.interpolation = interpolationOf(parameters);
+  parameters.isosurface.interpolation = parameters.takenInterpolation();
   if (parameters.isosurface.interpolation != Interpolation::Linear)
     report.warn("fits_oscillate");
   findField(*input.samples, parameters);

@@ -2,7 +2,6 @@
 #include "common/parameter_json.h"
 #include "common/stretch_axes.h"
 #include "neighbors/periodic_box.h"
-#include "pipeline/pipeline_input.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>
 
@@ -11,10 +10,10 @@
 namespace pcl_uvol {
 
 Interpolation
-interpolationOf(const IsosurfacePipelineParameters& parameters)
+IsosurfacePipelineParameters::takenInterpolation() const
 {
-  const Interpolation asked = parameters.isosurface.interpolation;
-  const bool ends = parameters.outside_value && !parameters.mesh;
+  const Interpolation asked = isosurface.interpolation;
+  const bool ends = outside_value && !mesh;
   return ends && asked == Interpolation::Auto ? Interpolation::Linear : asked;
 }
 
@@ -34,7 +33,7 @@ void
 checkParameters(const IsosurfacePipelineParameters& parameters)
 {
   checkParameters(parameters.isosurface);
-  const bool fits = interpolationOf(parameters) != Interpolation::Linear;
+  const bool fits = parameters.takenInterpolation() != Interpolation::Linear;
   if (parameters.normals == NormalMethod::Fit && !fits)
     throw InvalidArgument("linear_with_fitted_normals", {});
   if (parameters.validation.folds == 1)

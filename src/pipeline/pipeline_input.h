@@ -22,11 +22,6 @@ struct PipelineInput {
   IsosurfacePipelineParameters parameters;
 };
 
-/** \brief The interpolation that is taken: Auto is Linear where samples of a value
- * outside are added, but in a mesh. */
-Interpolation
-interpolationOf(const IsosurfacePipelineParameters& parameters);
-
 /** \brief The cloud, which keeps the data set alive. */
 inline pcl::PCLPointCloud2::ConstPtr
 shareCloud(const PipelineInput& input)

@@ -73,9 +73,9 @@ TEST(Message, ParametersAreNamedAsByTheFrontEnd)
               " remain after -drop-bridged. The",
               " remain after DropBridged. The");
   expectNames(Message("spikes", {{"percent", 3}}),
-              "Try: smooth, or where to",
+              "Try: smooth, or -where (tools) to",
               "Try: -smooth, or -where to",
-              "Try: Smooth, or Where to");
+              "Try: Smooth, or -where (tools) to");
 }
 
 TEST(Message, ParametersHaveValues)
@@ -91,15 +91,27 @@ TEST(Message, ParametersHaveValues)
   expectNames(Message("nothing_covered", {{"tested", 160}}),
               "Try: extrapolate, more folds, or validate_by=blocks.",
               "Try: -extrapolate, more folds, or -validate-by blocks.",
-              "Try: Extrapolate, more folds, or ValidateBy=blocks.");
-  expectNames(Message("conflicting_samples", {{"percent", 8}}),
-              "Try: where to select one, for example where=\"experiment=1\".",
-              "Try: -where to select one, for example -where \"experiment=1\".",
-              "Try: Where to select one, for example Where=\"experiment=1\".");
-  expectNames(Message("unconstrained_measures", {{"percent", 60}}),
-              "Try: block=dx,dy,dz for",
-              "Try: -block dx,dy,dz for",
-              "Try: Block=dx,dy,dz for");
+              "Try: Extrapolate, more folds, or -validate-by blocks (tools).");
+}
+
+/** A front end that has no such parameter names the option of the tools. */
+TEST(Message, ParametersOfTheToolsOnlyAreNamedSo)
+{
+  const Message select("conflicting_samples", {{"percent", 8}});
+  const Message blocks("unconstrained_measures", {{"percent", 60}});
+  const auto expect = [&](const Message& message,
+                          const std::string& options,
+                          const std::string& others) {
+    EXPECT_TRUE(holds(message.text(ParameterNames::Options), options));
+    for (const auto names : {ParameterNames::Members, ParameterNames::Properties})
+      EXPECT_TRUE(holds(message.text(names), others)) << message.text(names);
+  };
+  expect(select,
+         "Try: -where to select one, for example -where \"experiment=1\".",
+         "Try: -where (tools) to select one, for example -where \"experiment=1\" "
+         "(tools).");
+  expect(blocks, "Try: -block dx,dy,dz for", "Try: -block dx,dy,dz (tools) for");
+  EXPECT_TRUE(holds(Message("oriented_to_zero", {}).text(), "Try: view_point to"));
 }
 
 /** A name, a number of all digits, and a value of a parameter that holds both. */
@@ -118,11 +130,11 @@ TEST(Message, ValuesOfParametersHoldValues)
         std::to_string(far) + " of 2002 positions " + (far == 1 ? "is" : "are") +
         " far away, for example 0.1 E, 42.5 S, 4760 km from the median. "
         "Try: ";
-    const std::string condition =
-        "\"lat != -42.100000000000001\" to exclude missing fixes.";
-    EXPECT_EQ(words + "where=" + condition, message.text());
-    EXPECT_EQ(words + "-where " + condition, message.text(ParameterNames::Options));
-    EXPECT_EQ(words + "Where=" + condition, message.text(ParameterNames::Properties));
+    const std::string condition = "-where \"lat != -42.100000000000001\"";
+    const std::string end = " to exclude missing fixes.";
+    EXPECT_EQ(words + condition + end, message.text(ParameterNames::Options));
+    for (const auto names : {ParameterNames::Members, ParameterNames::Properties})
+      EXPECT_EQ(words + condition + " (tools)" + end, message.text(names));
   }
 }
 
@@ -152,7 +164,7 @@ TEST(Message, ListWhatMayBeTried)
                   message.text());
         EXPECT_EQ(expected("-validate", "-scale", "-fill-gaps", "-drop-bridged"),
                   message.text(ParameterNames::Options));
-        EXPECT_EQ(expected("Validate", "Scale", "FillGaps", "DropBridged"),
+        EXPECT_EQ(expected("-validate (tools)", "Scale", "FillGaps", "DropBridged"),
                   message.text(ParameterNames::Properties));
       }
 }
@@ -409,12 +421,12 @@ TEST(MessageOfAnException, IsItsText)
   const InvalidArgument error("derivatives_of_blocks", {{"field", "grad(f)"}});
   const std::string begin = "The derivatives in 'grad(f)' are not available for points "
                             "that are read block by block. Try: no ";
-  EXPECT_EQ(begin + "max_memory.", error.what());
-  EXPECT_EQ(begin + "max_memory.", error.message());
+  EXPECT_EQ(begin + "-max-memory (tools).", error.what());
+  EXPECT_EQ(begin + "-max-memory (tools).", error.message());
   EXPECT_EQ(Message("derivatives_of_blocks", {{"field", "grad(f)"}}),
             error.asMessage());
   EXPECT_EQ(begin + "-max-memory.", error.asMessage().text(ParameterNames::Options));
-  EXPECT_EQ(begin + "MaximumMemory.",
+  EXPECT_EQ(begin + "-max-memory (tools).",
             error.asMessage().text(ParameterNames::Properties));
 }
 

@@ -148,6 +148,11 @@ struct PCL_UVOL_EXPORTS IsosurfacePipelineParameters {
    * vertex. */
   PeriodicMesh periodic_mesh = PeriodicMesh::Cut;
 
+  /** \return The interpolation that is taken: Auto is Linear where samples of a value
+   * outside are added, but in a mesh. */
+  Interpolation
+  takenInterpolation() const;
+
   /** \return automatic_scale; not given, true if gaps are filled and the factors of the
    * scale are 1: what kriging predicts between lines depends on distances that mean
    * something. */

@@ -70,12 +70,7 @@ readCells(const std::string& path,
   Report report;
   {
     const py::gil_scoped_release unlocked;
-    try {
-      mask.cells = loadCells(path, options, points);
-    }
-    catch (const IOError& error) {
-      report.warn("cells_not_used", {{"reason", error.message()}});
-    }
+    mask.cells = findCells(path, options, points, report);
   }
   return py::make_tuple(mask, toDicts(report.warnings));
 }
