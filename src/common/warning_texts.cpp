@@ -63,9 +63,8 @@ const MessageText warning_rows[] = {
      "spread of the samples. The model is unreliable there. Try: {-validate} to "
      "compare models."},
     {"total_sill",
-     "The partial sill of {field} is {psill}, near the variance of the samples, "
-     "{variance}, and there is a nugget of {nugget}. It may be the total sill. Try: "
-     "{rest} as the partial sill if so."},
+     "The partial sill of {field}, {psill}, is near the variance of the samples, "
+     "{variance}. It may be the total sill. Try: {rest}, without the nugget {nugget}."},
     {"no_variogram",
      "The field {field} is constant, so it has no variogram. Every estimate is that "
      "constant, with error 0."},
@@ -240,20 +239,18 @@ const MessageText warning_rows[] = {
      "removed the last {isopoints|isopoint|{isopoints} isopoints}. No part of the "
      "surface is certain enough.{by_error| Try: a larger {-max-error}.|}"},
     {"worse_than_baseline",
-     "Near the surface, cross-validation is worse than the baseline: {surface} % of "
-     "{samples} held-out samples are classified correctly; the majority class has "
-     "{baseline} %. Do not use the surface between the samples."},
+     "Near the surface, the surface classifies {surface} % of {samples} held-out "
+     "samples correctly, the majority class {baseline} %. Do not use it between the "
+     "samples."},
     {"worse_than_nearest_sample",
-     "Near the surface, the surface classifies {surface} % of {samples} held-out "
-     "samples "
-     "correctly, the nearest sample {nearest} %. The values change too fast, or are "
-     "noisy. Try: {-smooth}, or {-where} against outliers."},
+     "The surface classifies {surface} % of {samples} held-out samples near it "
+     "correctly (nearest sample {nearest} %). Values change fast or are noisy. Try: "
+     "{-smooth}, or {-where}."},
     {"worse_than_nearest_on_lines",
-     "Near the surface, the surface classifies {surface} % of {samples} held-out "
-     "samples "
-     "correctly, the nearest sample {nearest} %. Use only the crossings with "
-     "lines.{scale| Try: {-scale}{gaps| or "
-     "{-fill-gaps}|}.|{gaps| Try: {-fill-gaps}.|}}"},
+     "The surface classifies {surface} % of {samples} held-out samples near it "
+     "correctly (nearest sample {nearest} %). Use only crossings with "
+     "lines.{scale| Try: {-scale}{gaps| or {-fill-gaps}|}.|{gaps| Try: "
+     "{-fill-gaps}.|}}"},
     {"small_errors",
      "Of {samples} held-out samples beyond the estimated error, {percent} % are on the "
      "wrong side. Errors are too small, or samples noisy. Do not filter by error."},

@@ -181,7 +181,7 @@ TEST(Message, ChoicesHoldChoices)
                                  .text(ParameterNames::Options);
     return text.substr(text.find("Use "));
   };
-  const std::string use = "Use only the crossings with lines.";
+  const std::string use = "Use only crossings with lines.";
   EXPECT_EQ(use, advise(false, false));
   EXPECT_EQ(use + " Try: -fill-gaps.", advise(false, true));
   EXPECT_EQ(use + " Try: -scale.", advise(true, false));

@@ -8,6 +8,8 @@
 #include <pcl_uvol/neighbors/voronoi_diagram.h>
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 namespace uvol_tools {
 
@@ -124,23 +126,39 @@ PipelineOptions::declare(Options& options)
   picture.declare(options);
 }
 
-bool
-PipelineOptions::needsAllSamples() const
+std::vector<std::string>
+PipelineOptions::listNeedingAllSamples() const
 {
-  return hasFieldsOfNeighbors() || periodic.isAskedFor() || parameters.outside_value ||
-         parameters.smooth || parameters.takesAutomaticScale() ||
-         getScale().isFromSpacing() || isTurned(parameters) || !getWhere().empty() ||
-         parameters.validation.folds > 0 || parameters.mesh || parameters.fill_gaps ||
-         mesh_.isMeasured() ||
-         parameters.isosurface.neighbors != NeighborSource::KdTree;
+  std::vector<std::string> names;
+  const auto add = [&](bool is_given, const char* name) {
+    if (is_given)
+      names.push_back(name);
+  };
+  add(density.isAskedFor(), "-density");
+  add(parameters.outside_value.has_value(), "-outside-value");
+  add(periodic.isAskedFor(), "-periodic");
+  add(parameters.smooth, "-smooth");
+  add(!getWhere().empty(), "-where");
+  // -fill-gaps may imply it, but is named itself.
+  add(parameters.automatic_scale.value_or(false), "-scale auto");
+  add(getScale().isFromSpacing(), "-scale spacing");
+  add(isTurned(parameters), "-rotate or a matrix of -scale");
+  add(parameters.validation.folds > 0, "-validate");
+  add(parameters.fill_gaps, "-fill-gaps");
+  add(parameters.mesh.has_value(), "-mesh");
+  add(mesh_.isMeasured(), "-measure");
+  add(parameters.isosurface.neighbors == NeighborSource::Voronoi, "-neighbors voronoi");
+  add(parameters.isosurface.neighbors == NeighborSource::Exact, "-neighbors exact");
+  add(pcl_uvol::mayHaveDerivative(parameters.isosurface.field),
+      "derivatives in -field");
+  add(picture.hasColorOfSamples(), "derivatives in -color");
+  return names;
 }
 
 bool
-PipelineOptions::hasFieldsOfNeighbors() const
+PipelineOptions::needsAllSamples() const
 {
-  return density.isAskedFor() ||
-         pcl_uvol::mayHaveDerivative(parameters.isosurface.field) ||
-         picture.hasColorOfSamples();
+  return !listNeedingAllSamples().empty();
 }
 
 void
@@ -158,12 +176,13 @@ PipelineOptions::checkCombinations(const Options& options) const
     throw UsageError("-periodic-mesh needs -periodic.");
   if (options.given("scratch") && !options.given("max-memory"))
     throw UsageError("-scratch needs -max-memory.");
-  if (options.given("max-memory") && needsAllSamples())
-    throw UsageError(
-        "-max-memory cannot be combined with -density, -outside-value, -periodic, "
-        "-smooth, -where, -scale auto or spacing, -rotate, -validate, -fill-gaps, "
-        "-mesh, -measure, -neighbors voronoi or exact, or derivatives as fields. They "
-        "need all samples.");
+  if (options.given("max-memory") && needsAllSamples()) {
+    std::string names;
+    for (const std::string& name : listNeedingAllSamples())
+      names += (names.empty() ? "" : ", ") + name;
+    throw UsageError("-max-memory cannot be combined with " + names +
+                     ": all samples must be in memory.");
+  }
   try {
     checkParameters(parameters);
   }

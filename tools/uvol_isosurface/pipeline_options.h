@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <vector>
 
 namespace uvol_tools {
 
@@ -48,9 +49,9 @@ struct PipelineOptions : IsosurfaceOptions {
   makeOutOfCoreSettings(const Options& options) const;
 
 private:
-  /** Whether fields are added that a sample has from those around it. */
-  bool
-  hasFieldsOfNeighbors() const;
+  /** Names of the given options that need all samples at once. */
+  std::vector<std::string>
+  listNeedingAllSamples() const;
 
   void
   checkCombinations(const Options& options) const;
