@@ -82,7 +82,7 @@ def text(value, what):
     try:
         value.encode()
     except UnicodeEncodeError:
-        raise ValueError(f"{what} is {shown(value)}: it holds halves of characters, which are no text.") from None
+        raise ValueError(f"{what} is {shown(value)}: it contains halves of characters, which are not text.") from None
     return value
 
 

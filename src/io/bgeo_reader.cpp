@@ -123,7 +123,7 @@ BgeoHeader::takeMagic()
                     ".bhclassic it can be read");
   if (magic != "BgeoV")
     throwUnreadable(path_,
-                    "it is no classic .bgeo of Houdini: it does not begin with "
+                    "it is not a classic .bgeo file of Houdini: it does not begin with "
                     "'BgeoV'");
   cursor_.skip(magic_bytes);
   const auto found = takeNumber<std::uint32_t>();
@@ -215,7 +215,7 @@ BgeoHeader::passPrimitives(const Counts& counts)
     const auto kind = takeNumber<std::uint32_t>();
     if (kind != particle_system)
       throwUnreadable(path_,
-                      "it holds curves or surfaces (primitives of kind " +
+                      "it contains curves or surfaces (primitives of kind " +
                           std::to_string(kind) +
                           "), and particles alone are read; Houdini's Add node, which "
                           "keeps the points, takes them away");

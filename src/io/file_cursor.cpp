@@ -67,7 +67,7 @@ FileCursor::fill()
   char* const to = buffer_.data() + end_;
   file_.read(start_ + end_, to, bytes);
   if (content_ == Content::Text && std::memchr(to, 0, bytes))
-    throwUnreadable(path_, "it is no text: it has bytes that are zero");
+    throwUnreadable(path_, "it is not a text file: it contains zero bytes");
   end_ += bytes;
   return true;
 }

@@ -341,7 +341,7 @@ openGadget(const std::string& path, const LoadOptions& options)
   const auto layout = findLayout(file);
   if (!layout)
     throwUnreadable(path,
-                    "it is no snapshot of Gadget: it does not begin with a header");
+                    "it is not a Gadget snapshot: it does not begin with a header");
   const Header header = readHeader(file, *layout);
   std::vector<Message> notes;
   const std::vector<std::string> parts = listSnapshotFiles(path, header.files);

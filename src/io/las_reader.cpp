@@ -222,7 +222,7 @@ readHeader(const InputFile& file, const std::string& path)
 {
   const std::string bytes = file.head(long_header_bytes);
   if (bytes.rfind("LASF", 0) != 0)
-    throwUnreadable(path, "it is no LAS file: it does not begin with 'LASF'");
+    throwUnreadable(path, "it is not a LAS file: it does not begin with 'LASF'");
   if (bytes.size() < las_header_bytes)
     throwUnreadable(path, "it is truncated: its header is not complete");
   const auto format = numberAt<std::uint8_t>(bytes, 104);

@@ -36,10 +36,7 @@ readMesh(const std::string& path)
     return {readWhole(vtkLibrary().openHdf5(path, {}), {}),
             vtkLibrary().readVtkHdfTriangles(path)};
   if (InputFile(path).head(3) != "ply")
-    throwUnreadable(
-        path,
-        "meshes are read from .ply, .vtp, .vtkhdf, .obj, .off and .stl, and this is "
-        "none");
+    throwUnreadable(path, "it is not a .ply, .vtp, .vtkhdf, .obj, .off or .stl mesh");
   return readPlyMesh(path);
 }
 

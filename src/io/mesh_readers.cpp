@@ -122,7 +122,7 @@ public:
       fail("it has fewer than three coordinates");
     for (std::size_t i = 0; i < 3; ++i)
       if (!parseNumber(words[first + i], numbers[i]))
-        fail(quoteText(words[first + i]) + " is no number");
+        fail(quoteText(words[first + i]) + " is not a number");
     return numbers;
   }
 
@@ -131,7 +131,7 @@ public:
   {
     std::uint64_t count = 0;
     if (!parseCount(word, count))
-      fail(quoteText(word) + " is no number of vertices or faces");
+      fail(quoteText(word) + " is not a number of vertices or faces");
     return count;
   }
 
@@ -193,7 +193,7 @@ private:
     std::uint64_t number = 0;
     if (!parseCount(is_backwards ? word.substr(1) : word, number) || number == 0 ||
         number >= none || (is_backwards && number > count))
-      text_.fail(quoteText(word) + " is no number of a vertex or normal");
+      text_.fail(quoteText(word) + " is not the number of a vertex or normal");
     return static_cast<std::uint32_t>(is_backwards ? count - number : number - 1);
   }
 

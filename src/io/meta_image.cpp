@@ -112,7 +112,7 @@ HeaderParser::take(std::string_view key, std::string_view value)
   else if (key == "ElementType") {
     data_.datatype = parseDatatype(value);
     if (data_.datatype == 0)
-      throwInLine(quoteText(value) + " is no type of numbers");
+      throwInLine(quoteText(value) + " is not a number type");
   }
   else if (key == "BinaryData")
     data_.encoding =
@@ -124,7 +124,7 @@ HeaderParser::take(std::string_view key, std::string_view value)
   else if (key == "HeaderSize") {
     data_.at_end = value == "-1";
     if (!data_.at_end && !parseCount(value, data_.skipped_bytes))
-      throwInLine(quoteText(value) + " is no size of a header");
+      throwInLine(quoteText(value) + " is not the size of a header");
   }
 }
 
@@ -167,7 +167,7 @@ HeaderParser::parse()
       continue;
     const std::size_t equals = line.find_first_of("=:");
     if (equals == line.npos)
-      throwInLine("this is no line of a MetaImage header");
+      throwInLine("the line does not belong to a MetaImage header");
     const std::string key(trimmed(line.substr(0, equals)));
     const std::string value(trimmed(line.substr(equals + 1)));
     splitWords(value, words_);

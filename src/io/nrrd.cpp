@@ -77,7 +77,7 @@ NrrdParser::countIn(std::string_view value) const
 {
   std::uint64_t count = 0;
   if (!parseCount(value, count))
-    throwInLine(quoteText(value) + " is no count");
+    throwInLine(quoteText(value) + " is not a count");
   return count;
 }
 
@@ -128,7 +128,7 @@ NrrdParser::take(const std::string& field, std::string_view value)
   if (field == "type") {
     data_.datatype = parseDatatype(std::string(value));
     if (data_.datatype == 0)
-      throwInLine(quoteText(value) + " is no type of numbers");
+      throwInLine(quoteText(value) + " is not a number type");
   }
   else if (field == "dimension") {
     if (countIn(value) != 3)
@@ -171,7 +171,7 @@ NrrdParser::finish()
   if (has_bytes && !has_order_)
     throwUnreadable(path_, "its header does not say which endian its numbers have");
   if (data_.at_end && data_.encoding != VolumeData::Encoding::Raw)
-    throwUnreadable(path_, "a byte skip of -1 goes with the encoding raw only");
+    throwUnreadable(path_, "a byte skip of -1 requires the encoding raw");
   for (std::size_t axis = 0; axis < std::min<std::size_t>(3, spacings_.size()); ++axis)
     if (std::isfinite(spacings_[axis]))
       volume_.spacing[axis] = spacings_[axis];
@@ -190,14 +190,14 @@ NrrdParser::parse()
   std::string_view line;
   if (!cursor_.nextLine(line) || line.substr(0, 4) != "NRRD")
     throwUnreadable(path_,
-                    "it is no NRRD file: its first line does not begin with "
+                    "it is not a NRRD file: its first line does not begin with "
                     "'NRRD'");
   while (cursor_.nextLine(line) && !line.empty()) {
     const std::size_t colon = line.find(':');
     if (line[0] == '#' || line.substr(std::min(colon, line.size()), 2) == ":=")
       continue;
     if (colon == line.npos)
-      throwInLine("this is no line of a NRRD header");
+      throwInLine("the line does not belong to a NRRD header");
     const std::string field = lowerCase(trimmed(line.substr(0, colon)));
     const std::string value(trimmed(line.substr(colon + 1)));
     splitWords(value, words_);

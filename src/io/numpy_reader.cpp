@@ -94,7 +94,7 @@ private:
   [[noreturn]] void
   fail() const
   {
-    throwUnreadable(path_, "its header is no description of an array of NumPy");
+    throwUnreadable(path_, "its header does not describe a NumPy array");
   }
 
   const std::string& path_;
@@ -227,7 +227,7 @@ readArray(const std::string& path,
     throwUnreadable(path, "it is truncated: the header of an array is not complete");
   file->read(start, head.data(), head.size());
   if (std::memcmp(head.data(), "\x93NUMPY", 6) != 0 || head[6] < 1 || head[6] > 3)
-    throwUnreadable(path, "it is no array of NumPy, or of a newer format");
+    throwUnreadable(path, "it is not a NumPy array, or its format is newer");
   const bool is_long = head[6] > 1;
   std::uint64_t length = head[8] | std::uint64_t(head[9]) << 8;
   if (is_long)

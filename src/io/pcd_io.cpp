@@ -95,7 +95,7 @@ PcdHeaderParser::countIn(const Words& words) const
 {
   std::uint64_t value = 0;
   if (words.size() != 2 || !parseCount(words[1], value))
-    throwUnreadable(path_, line_, quoteText(words[0]) + " is no count");
+    throwUnreadable(path_, line_, quoteText(words[0]) + " requires one count");
   return value;
 }
 
@@ -245,7 +245,7 @@ compressedSizes(const InputFile& file, const std::string& path, const Header& he
       throwTruncated(path, count, left);
     if (sizes[1] != count * step)
       throwUnreadable(path,
-                      "its compressed data hold " + std::to_string(sizes[1]) +
+                      "its compressed data have " + std::to_string(sizes[1]) +
                           " bytes, but its header promises " +
                           std::to_string(count * step));
   }
@@ -359,7 +359,7 @@ AsciiSource::readRecord(std::uint8_t* record)
       if (!parseNumber(*word, field.datatype, record + field.offset + i * bytes))
         throwUnreadable(path_,
                         cursor_->tell().line,
-                        quoteText(*word) + " is no number for the field " +
+                        quoteText(*word) + " is not a number for the field " +
                             describeFields({field}));
   }
 }
@@ -370,7 +370,7 @@ AsciiSource::finish()
   if (cursor_->nextWords(words_))
     throwUnreadable(path_,
                     cursor_->tell().line,
-                    "it holds more than the " + std::to_string(info_.count) +
+                    "it has more than the " + std::to_string(info_.count) +
                         " points that its header promises");
 }
 

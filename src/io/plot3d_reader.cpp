@@ -188,7 +188,7 @@ findGrids(const std::string& path, const InputFile& file, Layout& layout)
     return grids;
   }
   throwUnreadable(path,
-                  "it is no whole, binary grid of PLOT3D in three dimensions: no "
+                  "it is not a complete, binary PLOT3D grid in three dimensions: no "
                   "layout of these has its size");
 }
 
@@ -309,7 +309,7 @@ openPlot3d(const std::string& path)
                     files->solutions.end(),
                     same))
       throwUnreadable(solution,
-                      "it is no solution of PLOT3D for the grids of '" + path + "'");
+                      "it is not a PLOT3D solution for the grids of '" + path + "'");
   }
   auto source = std::make_unique<PartsSource>(
       files->grids.size(),

@@ -59,7 +59,8 @@ PlyHeaderParser::takeProperty(const Words& words)
     type = 3;
     if (property.length_type == 0 || property.length_type == Type::FLOAT32 ||
         property.length_type == Type::FLOAT64)
-      throwInLine(quoteText(words[2]) + " is no type for a list's length");
+      throwInLine(quoteText(words[2]) +
+                  " is not a valid type for the length of a list");
   }
   if (words.size() != type + 2)
     throwInLine("a property needs a type and a name");
@@ -80,7 +81,7 @@ PlyHeaderParser::formatIn(const Words& words) const
     return PlyFormat::LittleEndian;
   if (words.size() == 3 && words[1] == "binary_big_endian")
     return PlyFormat::BigEndian;
-  throwInLine("the format is none of ascii, binary_little_endian and "
+  throwInLine("the format is not ascii, binary_little_endian or "
               "binary_big_endian");
 }
 
@@ -105,7 +106,7 @@ PlyHeaderParser::takeLine(std::string_view line, const Words& words)
   else if (words[0] == "property")
     takeProperty(words);
   else
-    throwInLine("this is no line of a PLY header");
+    throwInLine("the line does not belong to a PLY header");
 }
 
 PlyHeader
@@ -113,7 +114,7 @@ PlyHeaderParser::parse()
 {
   std::string_view line;
   if (!cursor_.nextLine(line) || line != "ply")
-    throwUnreadable(path_, "it is no PLY file: its first line is not 'ply'");
+    throwUnreadable(path_, "it is not a PLY file: its first line is not 'ply'");
   Words words;
   while (cursor_.nextLine(line)) {
     splitWords(line, words);

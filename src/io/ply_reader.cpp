@@ -199,7 +199,7 @@ PlyAsciiSource::readRecord(std::uint8_t* record)
     std::uint64_t length = 0;
     if (property.length_type) {
       if (!parseCount(text, length) || length > words_.size() - word)
-        throwInLine(quoteText(text) + " is no length of the list " +
+        throwInLine(quoteText(text) + " is not a valid length of the list " +
                     quoteText(property.name));
       word += length;
       continue;
@@ -295,7 +295,7 @@ FaceReader::takeNumber(std::uint8_t datatype)
   else if (!parseNumber(words_[word_++], datatype, bytes))
     throwUnreadable(path_,
                     cursor_.tell().line,
-                    quoteText(words_[word_ - 1]) + " is no number for a face");
+                    quoteText(words_[word_ - 1]) + " is not a number for a face");
   return FieldComponent{0, datatype}.read(bytes);
 }
 

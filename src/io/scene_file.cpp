@@ -60,7 +60,7 @@ readText(const std::string& path)
     io::throwUnreadable(
         path,
         1 + static_cast<std::size_t>(std::count(text.begin(), strange, '\n')),
-        "it is no text: it has a byte of value " +
+        "it is not a text file: it contains a byte of value " +
             std::to_string(static_cast<unsigned char>(*strange)));
   return text;
 }

@@ -55,8 +55,8 @@ chooseKind(const std::string& path,
   const auto found = std::find_if(kinds.begin(), kinds.end(), is_meant);
   if (found == kinds.end())
     throwUnreadable(path,
-                    (chosen.empty() ? std::string("it holds no particles")
-                                    : "it holds no particles " + quoteText(chosen)) +
+                    (chosen.empty() ? std::string("it contains no particles")
+                                    : "it contains no particles " + quoteText(chosen)) +
                         (chosen.empty() ? "" : "; there are " + describeKinds(kinds)));
   const auto filled = std::count_if(
       kinds.begin(), kinds.end(), [](const ParticleKind& k) { return k.count > 0; });

@@ -184,7 +184,7 @@ ValueReader::appendTexts(std::vector<float>& values)
       if (!parseNumber(text, data_.datatype, bytes))
         throwUnreadable(path_,
                         cursor_.tell().line + 1,
-                        quoteText(text) + " is no number of the type in the header");
+                        quoteText(text) + " is not a number of the type in the header");
       values.push_back(static_cast<float>(number.read(bytes)));
       ++taken;
     }
@@ -276,7 +276,8 @@ setDims(const std::string& path,
     std::uint64_t size = 0;
     if (!parseCount(words[axis], size) || size < 1 || size > most ||
         product > std::numeric_limits<std::uint64_t>::max() / size)
-      throwUnreadable(path, quoteText(words[axis]) + " is no size of a volume");
+      throwUnreadable(path,
+                      quoteText(words[axis]) + " is not a valid size of a volume");
     product *= size;
     volume.dims[axis] = static_cast<std::size_t>(size);
   }
@@ -324,7 +325,7 @@ expandPattern(const std::string& path, const std::vector<std::string_view>& word
   if (!valid || first < 0 || last < first || step < 1)
     throwUnreadable(path,
                     quoteText(pattern) +
-                        " and its numbers stand for no files; slices are named as in "
+                        " and its numbers do not name files; slices are named as in "
                         "'slice%03d.raw 1 20 1': one %d, first, last and step");
   const char fill = pattern[start + 1] == '0' ? '0' : ' ';
   std::vector<std::string> files;

@@ -46,7 +46,7 @@ VolumeHeader::parseWord(std::string_view word) const
 {
   double number = 0.0;
   if (!parseNumber(word, number))
-    throwInLine(quoteText(word) + " is no number");
+    throwInLine(quoteText(word) + " is not a number");
   return number;
 }
 

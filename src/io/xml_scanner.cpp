@@ -92,7 +92,7 @@ XmlScanner::decoded(std::string_view text) const
         appendCharacter(result, code);
     }
     if (!known || end == text.npos)
-      fail(quoteText(text.substr(at, 10)) + " is no character of XML");
+      fail(quoteText(text.substr(at, 10)) + " is not a character of XML");
     at = end;
   }
   return result;
@@ -157,7 +157,7 @@ XmlScanner::parse(std::string_view text, XmlTag& tag) const
     at = end + 1;
   }
   if (tag.name.empty() || at < text.size())
-    fail(quoteText(text) + " is no tag of XML");
+    fail(quoteText(text) + " is not a tag of XML");
 }
 
 void

@@ -73,7 +73,7 @@ EncodedBytes::decode()
       padding += c == '=';
       if ((digit == no_digit) != (padding > 0) || (c != '=' && padding > 0) ||
           padding > 2)
-        throwUnreadable(path_, "the data of an array are no base64");
+        throwUnreadable(path_, "the data of an array are not base64");
       bits = bits << 6 | (digit & 63);
     }
     const char bytes[] = {static_cast<char>(bits >> 16),

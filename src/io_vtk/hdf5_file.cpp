@@ -83,7 +83,7 @@ Hdf5File::Hdf5File(const std::string& path)
     : path_(path)
 {
   if (!isHdf5(path))
-    throwUnreadable(path, "it is no file of HDF5");
+    throwUnreadable(path, "it is not an HDF5 file");
   const Hdf5Session session;
   file_ = own(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
   if (!file_)

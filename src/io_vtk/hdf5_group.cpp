@@ -31,7 +31,7 @@ Hdf5Group::takeCoordinates(const std::vector<std::string>& names)
     const auto shape = file_.findShape(dataset);
     if (!shape || shape->components != components)
       throwUnreadable(file_.getPath(),
-                      quoteText(dataset) + " is no table of " +
+                      quoteText(dataset) + " is not a table of " +
                           (components == 3 ? "three coordinates per point"
                                            : "one coordinate per point"));
     if (i > 0 && shape->rows != rows_)

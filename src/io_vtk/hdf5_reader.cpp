@@ -161,7 +161,7 @@ openAnyGroup(const Hdf5File& file)
   if (found.empty())
     throwUnreadable(
         file.getPath(),
-        "it is no snapshot, and no group of it has tables of coordinates "
+        "it is not a snapshot, and none of its groups has tables of coordinates "
         "with a usual name (x, y, z or Coordinates, positions, pos); behind "
         "the file they can be named, as in file.h5:/group/x,y,z");
   std::vector<Message> notes;

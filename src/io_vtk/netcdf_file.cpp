@@ -62,7 +62,7 @@ NetcdfFile::NetcdfFile(const std::string& path)
   const Hdf5Session session;
   int file = -1;
   if (nc_open(path.c_str(), NC_NOWRITE, &file) != NC_NOERR)
-    throwUnreadable(path, "it is no NetCDF, or damaged");
+    throwUnreadable(path, "it is not a NetCDF file, or it is damaged");
   file_ = std::shared_ptr<const int>(new int(file), [](const int* id) {
     const Hdf5Session closing;
     nc_close(*id);
@@ -117,7 +117,7 @@ NetcdfFile::countNumbers(const NetcdfVariable& variable) const
     if (along != 0 && size > most / along)
       throwUnreadable(path_,
                       "it is damaged: '" + variable.name +
-                          "' has more numbers than the file could hold");
+                          "' has more numbers than the file has room for");
     size *= along;
   }
   return size;

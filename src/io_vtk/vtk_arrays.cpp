@@ -98,7 +98,7 @@ void
 checkLattice(const std::string& path, vtkDataSet& data)
 {
   if (!vtkPointSet::SafeDownCast(&data) && !data.GetPointData()->GetArray(0))
-    throwUnreadable(path, "it holds a grid without numbers at its points");
+    throwUnreadable(path, "it contains a grid without numbers at its points");
 }
 
 std::uint8_t*
@@ -126,8 +126,9 @@ readTexts(const std::string& path,
     if (!parseNumber(word, datatype, bytes))
       throwUnreadable(path,
                       cursor.tell().line + 1,
-                      word.empty() ? "an array has too few numbers"
-                                   : quoteText(word) + " is no number of that array");
+                      word.empty()
+                          ? "an array has too few numbers"
+                          : quoteText(word) + " is not a number of that array");
   }
 }
 

@@ -58,7 +58,8 @@ checkBeginning(const std::string& path)
   const std::string head = InputFile(path).head(4);
   if (isAmong(exodus_endings, getEnding(path)) && head.rfind("CDF", 0) != 0 &&
       head != "\x89HDF")
-    throwUnreadable(path, "it is no Exodus: it does not begin as NetCDF or HDF5 do");
+    throwUnreadable(path,
+                    "it is not an Exodus file: it does not begin like NetCDF or HDF5");
 }
 
 vtkSmartPointer<vtkAlgorithm>

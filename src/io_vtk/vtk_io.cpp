@@ -92,7 +92,7 @@ readPieceList(const std::string& path)
       continue;
     const std::string* const source = tag.find("Source");
     if (!source)
-      throwUnreadable(path, "it is no list of pieces: one of them has no Source");
+      throwUnreadable(path, "it is not a list of pieces: one of them has no Source");
     pieces.push_back((std::filesystem::path(path).parent_path() / *source).string());
   }
   if (!is_list || !scanner.getOpen().empty())

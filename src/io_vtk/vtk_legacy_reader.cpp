@@ -44,7 +44,7 @@ takeHeader(const std::string& path, FileCursor& cursor)
   std::string_view line;
   if (!cursor.nextLine(line) || line.substr(0, 14) != "# vtk DataFile")
     throwUnreadable(path,
-                    "it is no VTK file: its first line does not begin with '# "
+                    "it is not a VTK file: its first line does not begin with '# "
                     "vtk DataFile'");
   cursor.nextLine(line); // the title
   Words words;
@@ -52,11 +52,11 @@ takeHeader(const std::string& path, FileCursor& cursor)
   const std::string format =
       cursor.nextWords(words) ? lowerCase(words[0]) : std::string();
   if (format != "ascii" && format != "binary")
-    throwUnreadable(path, 3, "neither ASCII nor BINARY stands there");
+    throwUnreadable(path, 3, "the line is neither ASCII nor BINARY");
   header.binary = format == "binary";
   if (!cursor.nextWords(words) || words.size() != 2 || lowerCase(words[0]) != "dataset")
     throwUnreadable(
-        path, cursor.tell().line, "it has no DATASET, but only such files hold points");
+        path, cursor.tell().line, "it has no DATASET, which points require");
   header.kind = lowerCase(words[1]);
   return header;
 }
@@ -144,7 +144,7 @@ LegacyReader::count(std::size_t i) const
 {
   std::uint64_t value = 0;
   if (!parseCount(word(i), value))
-    fail(quoteText(word(i)) + " is no count");
+    fail(quoteText(word(i)) + " is not a count");
   return value;
 }
 
@@ -167,7 +167,7 @@ LegacyReader::takeGeometry(const std::string& key)
     std::array<double, 3> values{};
     for (std::size_t i = 0; i < 3; ++i)
       if (!parseNumber(word(i + 1), values[i]))
-        fail(quoteText(word(i + 1)) + " is no number");
+        fail(quoteText(word(i + 1)) + " is not a number");
     return values;
   };
   if (key == "dimensions") {
@@ -404,7 +404,7 @@ LegacyReader::scan()
                                         "polydata",
                                         "unstructured_grid"};
   if (std::find(std::begin(kinds), std::end(kinds), header_.kind) == std::end(kinds))
-    fail("it holds no points but " + quoteText(header_.kind));
+    fail("it contains no points, only " + quoteText(header_.kind));
   Words words;
   while (cursor_.nextWords(words)) {
     words_.assign(words.begin(), words.end());
@@ -416,7 +416,7 @@ LegacyReader::scan()
     else if (key == "metadata")
       body_.skipMetadata();
     else if (!takeGeometry(key) && !takeCells(key) && !takeAttribute(key))
-      fail(quoteText(words_[0]) + " is no keyword of its data");
+      fail(quoteText(words_[0]) + " is not a keyword of its data");
   }
 }
 

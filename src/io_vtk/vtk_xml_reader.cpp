@@ -87,7 +87,7 @@ ArrayReader::chooseCompressor()
     encoding_.most_expansion = 1u << 14; // zeros: measured 7000
   }
   else
-    throwUnreadable(path_, quoteText(tags_.compressor) + " is no compressor of VTK");
+    throwUnreadable(path_, quoteText(tags_.compressor) + " is not a compressor of VTK");
   encoding_.compressor = compressor_;
 }
 
@@ -317,7 +317,7 @@ Assembler::checkPieces()
     return;
   if (countOf(tags_.whole) > points_)
     throwUnreadable(path_,
-                    "its pieces hold " + std::to_string(points_) + " of the " +
+                    "its pieces have " + std::to_string(points_) + " of the " +
                         std::to_string(countOf(tags_.whole)) + " points of the grid");
   points_ = countOf(tags_.whole);
 }
@@ -343,7 +343,7 @@ Assembler::gatherGrid(ArrayReader& reader,
     });
   }
   if (std::find(covered.begin(), covered.end(), false) != covered.end())
-    throwUnreadable(path_, "its pieces do not hold all points of the grid");
+    throwUnreadable(path_, "its pieces do not have all points of the grid");
 }
 
 vtkSmartPointer<vtkDataArray>
@@ -475,7 +475,7 @@ checkVtkXml(const std::string& path)
   for (const Piece& piece : tags.pieces)
     cells += piece.cells;
   const auto refuse = [&] {
-    throwUnreadable(path, "its pieces do not hold all cells of the grid");
+    throwUnreadable(path, "its pieces do not have all cells of the grid");
   };
   if (cells < countOf(whole))
     refuse();

@@ -60,7 +60,7 @@ TagCollector::extentIn(const std::string& text) const
     const double low = numbers[i / 2 * 2];
     if (!(std::abs(numbers[i]) <= most) || numbers[i] != std::floor(numbers[i]) ||
         numbers[i] < low - 1 || numbers[i] - low >= most)
-      throwUnreadable(path_, quoteText(text) + " is no extent of a grid");
+      throwUnreadable(path_, quoteText(text) + " is not the extent of a grid");
     extent[i] = static_cast<int>(numbers[i]);
   }
   if (countOf({extent[0], extent[1], extent[2], extent[3], 0, 0}) > std::uint64_t(1)
@@ -76,7 +76,8 @@ TagCollector::countIn(const XmlTag& tag,
 {
   const std::string* const text = tag.find(attribute);
   if (text && !parseCount(trimmed(*text), absent))
-    throwUnreadable(path_, quoteText(*text) + " is no " + std::string(attribute));
+    throwUnreadable(path_,
+                    quoteText(*text) + " is not a valid " + std::string(attribute));
   return absent;
 }
 
@@ -97,7 +98,7 @@ TagCollector::takeRoot(const XmlTag& tag)
       return;
   if (with_cells_ && kind == "RectilinearGrid")
     return;
-  throwUnreadable(path_, "it holds no points but " + quoteText(kind));
+  throwUnreadable(path_, "it contains no points, only " + quoteText(kind));
 }
 
 void
@@ -119,7 +120,7 @@ TagCollector::takePiece(const XmlTag& tag)
     piece.extent = extentIn(*extent);
     for (std::size_t i = 0; i < 6; i += 2)
       if (piece.extent[i] < whole[i] || piece.extent[i + 1] > whole[i + 1])
-        throwUnreadable(path_, "a piece lies outside of the whole extent");
+        throwUnreadable(path_, "a piece is outside the whole extent");
     piece.points = countOf(piece.extent);
     piece.cells = countOf(cellsOf(piece.extent));
   }
@@ -257,7 +258,7 @@ TagCollector::collect()
     }
   }
   if (!has_grid)
-    throwUnreadable(path_, "it is no VTK file of points");
+    throwUnreadable(path_, "it is not a VTK file of points");
 }
 
 } // namespace io

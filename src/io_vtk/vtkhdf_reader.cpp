@@ -392,7 +392,7 @@ VtkHdfReader::readLattice() const
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double size = extent[2 * axis + 1] - extent[2 * axis] + 1.0;
     if (!(size >= 1.0 && size * static_cast<double>(points) <= UINT32_MAX))
-      throwUnreadable(path_, "the extent of its image holds no points, or too many");
+      throwUnreadable(path_, "the extent of its image has no points, or too many");
     lattice.sizes[axis] = static_cast<std::uint64_t>(size);
     points *= lattice.sizes[axis];
     lattice.first[axis] = extent[2 * axis];
@@ -442,7 +442,7 @@ VtkHdfReader::openImage()
 {
   if (file_.hasGroup(inside("Steps")))
     throwUnreadable(path_,
-                    "it holds images of several times; ParaView saves one of them "
+                    "it contains images of several times; ParaView saves one of them "
                     "as .vti");
   const Lattice lattice = readLattice();
   columns_.push_back(
@@ -459,7 +459,7 @@ VtkHdfReader::readTriangles() const
 {
   if (file_.hasGroup(inside("Steps")))
     throwUnreadable(path_,
-                    "it holds meshes of several times; ParaView saves one of them "
+                    "it contains meshes of several times; ParaView saves one of them "
                     "as .vtp");
   const std::uint64_t parts = readRows("NumberOfPoints");
   const auto points = readNumbers("NumberOfPoints", 0, parts);
@@ -502,7 +502,8 @@ VtkHdfReader::readCells(SampleTopology& topology) const
   for (std::size_t part = 0; part < points.size(); ++part) {
     for (const double count : {points[part], cells[part], corners[part]})
       if (!(count >= 0.0 && count <= UINT32_MAX))
-        throwUnreadable(path_, "it is damaged: a count of its parts is none");
+        throwUnreadable(path_,
+                        "it is damaged: a count of its parts is not a valid number");
     const auto cell_count = static_cast<std::uint64_t>(cells[part]),
                corner_count = static_cast<std::uint64_t>(corners[part]);
     const std::vector<double> ends = readEnds("Offsets", offset, cell_count);
@@ -513,7 +514,8 @@ VtkHdfReader::readCells(SampleTopology& topology) const
       topology.ends.push_back(before + static_cast<std::uint64_t>(end));
     for (const double type : readNumbers("Types", cell, cell_count)) {
       if (!(type >= 0.0 && type <= UINT8_MAX))
-        throwUnreadable(path_, "it is damaged: a type of its cells is none");
+        throwUnreadable(path_,
+                        "it is damaged: a type of its cells is not a valid number");
       topology.types.push_back(static_cast<unsigned char>(type));
     }
     for (const double own : readNumbers("Connectivity", corner, corner_count)) {

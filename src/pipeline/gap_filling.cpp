@@ -129,9 +129,8 @@ tellWhyEmpty(const GapFilling& gaps, std::size_t kriged)
 {
   const double width = samples_per_gap * gaps.spacing;
   if (gaps.range < 0.5 * width)
-    return "by the variogram values tell of others no farther than " +
-           describeNumbers({gaps.range})[0] + ", and the gaps are " +
-           describeNumbers({width})[0] + " wide";
+    return "the variogram range is " + describeNumbers({gaps.range})[0] +
+           ", less than half the gap width of " + describeNumbers({width})[0];
   return kriged == 0 ? "kriging has no value in the gaps"
                      : "the kriged field does not cross the isovalue in the gaps";
 }
@@ -405,8 +404,8 @@ FilledGaps::findSpacing(const pcl::PointCloud<PointIso>& roots,
   }
   has_gaps_ = areGaps(in_gaps, roots.size());
   summary_.unfilled = roots.empty() ? "there is no surface"
-                      : has_gaps_ ? "the samples are too few to tell how wide they are"
-                                  : "samples lie all around the surface";
+                      : has_gaps_ ? "there are too few samples to estimate their width"
+                                  : "samples surround the surface";
   const double width = has_gaps_ ? findGapWidth(sampling_, std::move(lengths)) : 0.0;
   summary_.spacing = width / samples_per_gap;
   reach_ = farthest_gaps * width;

@@ -143,7 +143,7 @@ TEST_F(ArrayFiles, ArraysThatAreNoPointsAreRefused)
            {npy("'<f4'", "(4611686018427387904, 3)"), "larger than"},
            {npy("'<f4'", "(-1, 3)"), "no description"},
            {npy("{", ")"), "no description"},
-           {"nothing that NumPy wrote", "no array of NumPy"}})
+           {"nothing that NumPy wrote", "not a NumPy array"}})
     EXPECT_NE(std::string::npos, sentenceOf(save("a.npy", bytes)).find(words)) << words;
 }
 

@@ -239,13 +239,13 @@ TEST(MeshFormats, DamagedMeshesAreRefusedInASentence)
       };
   const std::string corner = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
   refuses("a.obj", "v 0 0\n", "line 1");
-  refuses("a.obj", "v 0 0 x\n", "'x' is no number");
+  refuses("a.obj", "v 0 0 x\n", "'x' is not a number");
   refuses("a.obj", corner + "f 1 2\n", "fewer than three corners");
   refuses("a.obj", corner + "f 1 2 4\n", "not there");
-  refuses("a.obj", corner + "f 1 2 0\n", "'0' is no number");
-  refuses("a.obj", corner + "f 1 2 -4\n", "'-4' is no number");
+  refuses("a.obj", corner + "f 1 2 0\n", "'0' is not the number");
+  refuses("a.obj", corner + "f 1 2 -4\n", "'-4' is not the number");
   refuses("a.obj", corner + "vn 0 0 1\nf 1//1 2//1 3//2\n", "normal");
-  refuses("a.obj", std::string("v 0 0 0\0", 8), "no text");
+  refuses("a.obj", std::string("v 0 0 0\0", 8), "not a text file");
   refuses("a.off", "ply\n", "begin with OFF");
   refuses("a.off", "OFF\n3\n", "numbers of vertices and faces");
   refuses("a.off", "OFF\n3 x 0\n", "'x'");

@@ -265,10 +265,10 @@ TEST(RankFiles, RefuseDamagedLists)
   for (const std::string& text :
        {std::string("no XML"), std::string("<VTKFile type=\"PPolyData\"/>")}) {
     writeFile(bad, text);
-    expectComplaint("no list of pieces", complaintOf({bad}, 1));
+    expectComplaint("not a list of pieces", complaintOf({bad}, 1));
   }
   writeFile(bad, "<VTKFile><PPolyData><Piece/></PPolyData></VTKFile>");
-  expectComplaint("no list of pieces", complaintOf({bad}, 1));
+  expectComplaint("not a list of pieces", complaintOf({bad}, 1));
   writeFile(bad, "<VTKFile><PPolyData/></VTKFile>");
   expectComplaint("it lists no pieces", complaintOf({bad}, 1));
   writeFile(bad, "");

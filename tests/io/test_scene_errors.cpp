@@ -142,7 +142,8 @@ TEST_F(SceneErrors, QuotesAndWhatIsNoText)
   expectError("a" + umlauts, "1:1: unknown word 'a" + umlauts.substr(0, 78) + "...'");
   for (const char* const text : {"size 1 1\n\x01", "sphere\n1\x1b[2J", "a\n\x0c"}) {
     const std::string message = messageOf<IOError>([&] { load(text); });
-    EXPECT_EQ(message.find("Cannot read '" + path_ + "', line 2: it is no text"), 0u)
+    EXPECT_EQ(
+        message.find("Cannot read '" + path_ + "', line 2: it is not a text file"), 0u)
         << message;
   }
 }

@@ -277,7 +277,7 @@ TEST(VtkReaders, PiecesOfAGridGoToTheirPlaces)
   writeFile(folder / "b.vti", text);
   EXPECT_NE(std::string::npos, messageOf<IOError>([&] {
                                  loadVolume(folder / "b.vti");
-                               }).find("do not hold all points"));
+                               }).find("do not have all points"));
 }
 
 } // namespace test_vtk_readers

@@ -187,7 +187,7 @@ TEST(GapFilling, SaysWhyItFillsNone)
 {
   // Nothing lies beside a profile.
   const auto [few_warning, few] = tellUnfilled(makeProfiles(1));
-  EXPECT_EQ("the samples are too few to tell how wide they are", few);
+  EXPECT_EQ("there are too few samples to estimate their width", few);
   EXPECT_TRUE(few_warning);
   // Samples all around have no gaps, and there is nothing to warn of.
   uvol_test::Random random(5);
@@ -202,7 +202,7 @@ TEST(GapFilling, SaysWhyItFillsNone)
   const auto dense = std::make_shared<Dataset>();
   pcl::toPCLPointCloud2(cloud, dense->cloud);
   const auto [dense_warning, around] = tellUnfilled(dense);
-  EXPECT_EQ("samples lie all around the surface", around);
+  EXPECT_EQ("samples surround the surface", around);
   EXPECT_FALSE(dense_warning);
 }
 
@@ -231,7 +231,7 @@ TEST(GapFilling, LeavesOutWhatItExplainsNothingOf)
   const auto [warning, unfilled] = tellUnfilled(makeNoisyProfiles(30, 0.0f));
   ASSERT_TRUE(warning);
   EXPECT_NE(std::string::npos,
-            wordOf(*warning, "reason").find("by the variogram values tell of others"));
+            wordOf(*warning, "reason").find("the variogram range is "));
   // Far from a profile the noise leaves nothing to tell.
   const auto result =
       uvol_test::runPipeline(makeNoisyProfiles(12, 0.5f), makeParameters(true));
