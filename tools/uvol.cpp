@@ -80,8 +80,8 @@ void
 printTools()
 {
   std::cout
-      << "Surfaces straight from scattered samples: one name for the tools of "
-         "pcl_uvol.\n\nUsage:\n"
+      << "Run the tools of pcl_uvol, which extract surfaces from scattered "
+         "samples.\n\nUsage:\n"
          "  uvol TOOL [arguments]  uvol isosurface star.csv star.ply -iso 0.1 is\n"
          "                         uvol_isosurface star.csv star.ply -iso 0.1\n"
          "  uvol TOOL -h           explains a tool, -h all with every option\n"

@@ -45,7 +45,7 @@ declareShapes(Options& options, pcl_uvol::InitialFunction& start)
   declare("sphere", "x,y,z,r", 4, "start from a sphere's distance");
   declare("box", "x0,y0,z0,x1,y1,z1", 6, "start from a box's distance");
   declare(
-      "plane", "x,y,z,nx,ny,nz", 6, "start from a plane whose normal looks outside");
+      "plane", "x,y,z,nx,ny,nz", 6, "start from a plane whose normal points outside");
 }
 
 void

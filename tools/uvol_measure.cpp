@@ -70,16 +70,13 @@ declare(Options& options, Arguments& arguments)
                   "isovalues by kriging blocks of these sides, as tonnage and grade "
                   "above a cutoff");
   options.group("Input");
-  options.input("samples",
-                "file",
-                arguments.samples,
-                "of a mesh: the samples to look for inside of it");
+  options.input(
+      "samples", "file", arguments.samples, "file of samples to count inside a mesh");
   options.group("Measures");
   options.flag(
       "pieces", arguments.with_pieces, "rows of the table for every piece as well");
-  options.flag("flat",
-               arguments.is_flat,
-               "measure triangles as they are, not bent as their normals tell");
+  options.flag(
+      "flat", arguments.is_flat, "measure flat triangles instead of curved ones");
   options.flag(
       "drop-unsure",
       arguments.drop_unsure,

@@ -77,7 +77,7 @@ run(int argc, char** argv)
                   "x,y,z",
                   3,
                   view_point,
-                  "points without a normal look there (default 0,0,0)");
+                  "position that new normals point to (default 0,0,0)");
   scale.declare(options, "distances", uvol_tools::AutomaticScale::Spacing);
   job.declareOutput();
   if (!options.parse(argc, argv))

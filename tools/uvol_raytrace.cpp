@@ -125,7 +125,7 @@ declare(Options& options, Arguments& arguments)
   options.file("in", arguments.input);
   options.file("out", arguments.output);
   options.group("Input");
-  options.text("folder", "path", arguments.folder, "where the clouds of a scene lie");
+  options.text("folder", "path", arguments.folder, "folder of the clouds of a scene");
   arguments.view.declareScene(options);
   arguments.view.declareExaggeration(options);
   arguments.view.declareFigure(options);

@@ -40,7 +40,7 @@ declare(uvol_tools::Options& options, Arguments& arguments)
   options.group("Picture");
   options.choice("backend",
                  arguments.backend,
-                 "what draws; auto: OpenGL on a GPU where there is one, else the CPU, "
+                 "renderer; auto: OpenGL if there is a GPU, otherwise the CPU, "
                  "whose picture OpenGL shows");
   options.output("screenshot",
                  "out.png",

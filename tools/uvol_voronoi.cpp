@@ -27,7 +27,7 @@ using uvol_tools::UsageError;
 struct Arguments {
   std::string input, output, picture, grid = "128", method = "transform";
   std::string backend = "osmesa", axis = "z";
-  int card = 0;
+  int card = -1; // not given
   double inner_radius = 2.0;
   std::uint64_t triangles = 6, slices = 6, margin = 0;
   uvol_tools::SizeOption size;
@@ -56,7 +56,7 @@ declare(Options& options, Arguments& arguments)
                  "exact, axis by axis; or as the thesis does, by cones and the depth "
                  "test of OpenGL: slower, a cell here and there is a little off");
   options.choice(
-      "backend", {"osmesa", "egl"}, arguments.backend, "where cones are drawn");
+      "backend", {"osmesa", "egl"}, arguments.backend, "renderer of the cones");
   options.integer("device",
                   arguments.card,
                   0,
@@ -67,12 +67,12 @@ declare(Options& options, Arguments& arguments)
                  arguments.inner_radius,
                  1.0,
                  pcl_uvol::ConicSections::largest_inner_radius,
-                 "of the first ring of a cone's triangles, cells");
+                 "radius of the first ring of triangles of a cone, in cells");
   options.integer("triangles",
                   arguments.triangles,
                   3,
                   pcl_uvol::ConicSections::most_first_triangles,
-                  "of the first ring; the thesis has 4");
+                  "number of triangles of the first ring; 4 in the thesis");
   options.group("Picture");
   options
       .output("png",

@@ -69,8 +69,7 @@ const MessageText error_rows[] = {
      "of the plane, {dip}."},
     {"scale_map_not_finite", "The nine numbers of the scale must be finite."},
     {"scale_map_flat",
-     "The nine numbers of the scale are degenerate: the three rows must not lie in one "
-     "plane."},
+     "The nine numbers of the scale are degenerate: the three rows are coplanar."},
     {"parameters_not_json", "The parameters are not valid JSON."},
     {"wrong_parameter", "The parameter {name} is {value}: it must be {expected}."},
     {"unknown_parameter",
@@ -712,7 +711,7 @@ const MessageText error_rows[] = {
      "Try: other units."},
     {"no_coordinates_for", "The input has no coordinates for {-position}."},
     {"labels_not_integers",
-     "The field {field} has values that are not integers: it does not hold labels."},
+     "The field {field} has values that are not integers: they are not labels."},
     {"no_variogram_of_constant",
      "The field {field} is the same at all samples: there is no variogram."},
     {"no_coordinates_to_sample",
@@ -727,7 +726,8 @@ const MessageText error_rows[] = {
     {"bad_chart_size", "An image has 1 to {most} pixels along each side."},
     {"labels_unlike_points", "There are {labels} labels for {points} points."},
     {"page_not_made", "Cannot make a page: {reason}."},
-    {"data_elsewhere", "Cannot read '{path}', whose data lie elsewhere: {reason}"},
+    {"data_elsewhere",
+     "Cannot read '{path}', whose data are in another file: {reason}"},
     {"command_line", "{text}"},
     {"tool_not_started", "{path} could not be started: {reason}."},
     {"output_closed", "Standard output could not be written."},
@@ -735,13 +735,12 @@ const MessageText error_rows[] = {
     {"out_of_threads", "There are not enough memory or threads for it."},
 
     // viewer
-    {"all_values_missing", "All values of {field} are without a number."},
+    {"all_values_missing", "All values of {field} are missing."},
     {"no_points_to_show", "There are no points to be shown."},
     {"all_values_equal",
      "All values of {field} are equal: there is no isosurface between them."},
     {"isovalue_beyond_values",
-     "The isovalue lies between {low} and {high}, the range of {field}, and is not "
-     "{isovalue}."},
+     "The isovalue {isovalue} is outside the range of {field}, {low} to {high}."},
     {"mesh_of_surface_points",
      "A mesh is made of samples, and these are points of a surface. Try: {-field} for "
      "the isosurfaces of samples."},

@@ -314,7 +314,7 @@ TEST_F(ClusterTool, RefusesFieldsThatAreNotThere)
   expectFailure("-attributes a,nope", 1, "There is no field 'nope'");
   expectFailure("-attributes a,b,a", 1, "can be given once");
   expectFailure("-label nope -cluster 1", 1, "'nope'");
-  expectFailure("-label a -cluster 1", 1, "not hold labels");
+  expectFailure("-label a -cluster 1", 1, "not labels");
   expectFailure(attributes_ + "-where 'nope>1'", 1, "nope");
   expectFailure(attributes_ + "-where 'a>1e9'", 1, "no points");
   const std::string border = attributes_ + "-cluster 1 -surface membership ";

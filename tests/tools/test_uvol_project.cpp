@@ -350,7 +350,7 @@ TEST_F(ProjectTool, RefusesAttributesThatAreNone)
 TEST_F(ProjectTool, RefusesLabelsThatAreNone)
 {
   expectFailure(attributes_ + "-label nope", 1, "'nope'");
-  expectFailure(attributes_ + "-label a", 1, "not hold labels");
+  expectFailure(attributes_ + "-label a", 1, "not labels");
 }
 
 TEST_F(ProjectTool, RefusesWrongCommandLines)

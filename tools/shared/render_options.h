@@ -81,7 +81,7 @@ public:
 
 private:
   std::string smoothing_ = "alleviated", backend_ = "auto";
-  int card_ = 0;
+  int card_ = -1; ///< not given
   std::vector<double> line_color_, opacities_;
   pcl_uvol::ImageSpaceSettings settings_;
 };

@@ -23,11 +23,12 @@ ScaleOption::declare(Options& options,
   if (is_found)
     help += ", or a matrix row by row";
   if (automatic == AutomaticScale::Field)
-    help += "; auto: as the field changes along each axis";
+    help += "; auto: from the change of the field along each axis";
   if (is_found)
     help += std::string("; spacing") +
             (automatic == AutomaticScale::Spacing ? " or auto" : "") +
-            ": as far apart as the samples lie";
+            ": from the sample spacing";
+  help += " (default 1,1,1)";
   options.text("scale",
                is_found ? "sx,sy,sz|a11,a12,...,a33|auto|spacing" : "sx,sy,sz",
                scale_,

@@ -67,7 +67,7 @@ PipelineOptions::declare(Options& options)
           "v|auto",
           max_error_,
           "leave out isopoints of a larger estimated error, in units of length; auto: "
-          "larger than half the distance of the samples that they lie between")
+          "larger than half the distance between the two samples of the isopoint")
       .rare();
   options.flag("drop-bridged",
                parameters.drop_bridged,
@@ -116,9 +116,9 @@ PipelineOptions::declare(Options& options)
               outside_value_,
               std::numeric_limits<double>::lowest(),
               std::numeric_limits<double>::max(),
-              "add samples of that value one spacing outside of the data, where the "
-              "field is known to end; isopoints lie on their edges then, as by "
-              "-interpolation linear")
+              "add samples of that value one spacing outside the data, where the field "
+              "ends; isopoints lie on their edges then, as with -interpolation linear "
+              "(default: none)")
       .rare();
   mesh_.declare(options);
   options.group("Output");

@@ -57,7 +57,7 @@ private:
   checkCombinations(const Options& options) const;
 
   MeshOptions mesh_;
-  double outside_value_ = 0.0;
+  double outside_value_ = std::numeric_limits<double>::quiet_NaN(); ///< none
   std::string max_error_, max_memory_, scratch_, validate_by_ = "random";
   std::uint64_t grid_ = 0, k_ = parameters.normal_neighbors;
 };

@@ -34,7 +34,7 @@ SurfacePicture::declare(Options& options)
   options.group("Picture");
   options.output("png", "out.png|.svg|.pdf", path_, "draw the isosurface as well")
       .check(checkPicturePath);
-  options.flag("raytrace", is_ray_traced_, "by ray tracing of splats").rare();
+  options.flag("raytrace", is_ray_traced_, "draw by ray tracing of splats").rare();
   look_.declareView(options);
   look_.declareExaggeration(options);
   look_.declareFigure(options);

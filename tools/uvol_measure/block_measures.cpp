@@ -48,8 +48,8 @@ describeBlocks(const BlockVolumes& found, const std::string& field)
   facts.emplace_back("blocks",
                      grid + ", " + std::to_string(found.known) + " of " +
                          std::to_string(all_blocks) +
-                         " estimated; the others are outside of the data, or no "
-                         "better known than by the mean of all samples",
+                         " estimated; the others are outside of the data, or "
+                         "less accurate than the mean of all samples",
                      Fact::Members{{"all", {static_cast<double>(all_blocks)}},
                                    {"estimated", {static_cast<double>(found.known)}}});
   std::vector<double> isovalues;

@@ -49,20 +49,20 @@ InterpolationOptions::declare(Options& options)
                "sph the one at which a kernel ends (48)")
       .rare();
   options
-      .text(
-          "variogram",
-          "kind[,nugget,psill,range]",
-          variogram_,
-          "of kriging: spherical, exponential, gaussian, matern32 or matern52; nugget, "
-          "partial sill (sill less nugget) and range (default spherical, fitted to the "
-          "samples)")
+      .text("variogram",
+            "kind[,nugget,psill,range]",
+            variogram_,
+            "variogram model of kriging: spherical, exponential, gaussian, matern32 or "
+            "matern52; nugget, partial sill (sill less nugget) and range (default "
+            "spherical, fitted to the "
+            "samples)")
       .rare();
   options
       .integer("trend",
                parameters_.kriging.trend,
                0,
                2,
-               "of kriging: degree of the polynomial that the mean is")
+               "degree of the polynomial of the mean, with kriging")
       .rare();
   options
       .flag("octants",
@@ -82,9 +82,9 @@ InterpolationOptions::declare(Options& options)
               parameters_.shepard.power,
               std::numeric_limits<double>::min(),
               most,
-              "of the inverse distance, with shepard")
+              "power of the inverse distance, with shepard")
       .rare();
-  options.choice("kernel", parameters_.sph.kernel, "of sph").rare();
+  options.choice("kernel", parameters_.sph.kernel, "kernel of sph").rare();
   options
       .text("smoothing-length",
             "field",

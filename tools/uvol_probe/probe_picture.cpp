@@ -83,9 +83,9 @@ ProbePicture::declare(Options& options)
               near_,
               0.0,
               std::numeric_limits<double>::max(),
-              "draw the samples that are so near to the plane, in their colours")
+              "draw the samples within this distance of the plane, in their colours")
       .rare();
-  options.text("unit", "text", unit_, "of the coordinates, such as km").rare();
+  options.text("unit", "text", unit_, "unit of the coordinates, such as km").rare();
 }
 
 void

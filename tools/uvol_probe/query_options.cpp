@@ -48,30 +48,38 @@ placeOf(const std::vector<double>& numbers, std::size_t first)
 void
 QueryOptions::declare(Options& options)
 {
-  options.input("points",
-                "file",
-                points_,
-                "at the points of a file, or the vertices of a mesh: the values become "
-                "further fields of theirs");
-  options.numbers("line", "x,y,z,x,y,z", 6, line_, "along a line, from end to end");
-  options.integer("n", line_points_, 2, 100000000, "with -line: so many points");
-  options.text("plane",
-               "z=v|x,y,z,nx,ny,nz",
-               plane_text_,
-               "in a plane, perpendicular to an axis or through a point with a normal");
+  options.input(
+      "points",
+      "file",
+      points_,
+      "interpolate at the points of a file, or the vertices of a mesh, and add the "
+      "values to their fields");
+  options.numbers(
+      "line", "x,y,z,x,y,z", 6, line_, "interpolate along a line, from end to end");
+  options.integer("n", line_points_, 2, 100000000, "with -line: number of points");
+  options.text(
+      "plane",
+      "z=v|x,y,z,nx,ny,nz",
+      plane_text_,
+      "interpolate in a plane perpendicular to an axis, or through a point with a "
+      "normal");
   options.text(
       "size",
       "n|WxH",
       size_text_,
-      "with -plane: points along the longer side, or a bound for each (default "
-      "512)");
-  options.text("grid",
-               "n|NxNxN",
-               grid_text_,
-               "in a grid of cubes, so many points along the longest side of the data; "
-               "or as many points along x, y and z");
-  options.numbers(
-      "box", "x0,y0,z0,x1,y1,z1", 6, box_, "of -plane and -grid (default: the data's)");
+      "with -plane: number of points along the longer side, or the most along each "
+      "(default 512)");
+  options.text(
+      "grid",
+      "n|NxNxN",
+      grid_text_,
+      "interpolate in a grid of cubes: number of points along the longest side of "
+      "the data, or along x, y and z");
+  options.numbers("box",
+                  "x0,y0,z0,x1,y1,z1",
+                  6,
+                  box_,
+                  "box of -plane and -grid (default: that of the data)");
   options
       .flag(
           "no-cell-mask",

@@ -286,25 +286,24 @@ struct PCL_UVOL_EXPORTS LevelSetParameters {
                 "thesis's and unstable on noise"}},
         Member{"flow",
                &Own::flow,
-               {"what smooths: mean is the mean curvature of the thesis (3.7), which "
+               {"smoothing flow: mean is the mean curvature of the thesis (3.7), which "
                 "shrinks; relative is that less its local mean, which keeps radii"}},
         Member{
             "bound",
             &Own::bound,
-            {"what bounds time steps: cfl is the distance to the nearest neighbour, as "
-             "in the thesis (3.5.1); stencil is by the weights of the neighbours"}},
+            {"bound of time steps: cfl is the distance to the nearest neighbour, as in "
+             "the thesis (3.5.1); stencil uses the weights of the neighbours"}},
         Member{"integration",
                &Own::integration,
-               {"whose time step is taken: asynchronous is each sample's own (thesis "
-                "3.5.2), synchronous is the smallest of all"}},
-        Member{
-            "reinitialization",
-            &Own::reinitialization,
-            {"what makes phi a distance again (thesis 3.4): distance to the isopoints, "
-             "the eikonal equation, or a diffusion term",
-             -none,
-             none,
-             "reinit"}},
+               {"time steps: asynchronous uses one per sample "
+                "(thesis 3.5.2), synchronous the smallest of all"}},
+        Member{"reinitialization",
+               &Own::reinitialization,
+               {"method that restores phi to a distance (thesis 3.4): distance to the "
+                "isopoints, the eikonal equation, or a diffusion term",
+                -none,
+                none,
+                "reinit"}},
         Member{"initial", &Own::initial},
         Member{"outside",
                &Own::outside,
