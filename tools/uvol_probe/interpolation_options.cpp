@@ -54,8 +54,7 @@ InterpolationOptions::declare(Options& options)
             variogram_,
             "variogram model of kriging: spherical, exponential, gaussian, matern32 or "
             "matern52; nugget, partial sill (sill less nugget) and range (default "
-            "spherical, fitted to the "
-            "samples)")
+            "spherical, fitted to the samples)")
       .rare();
   options
       .integer("trend",
