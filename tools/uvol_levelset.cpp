@@ -97,7 +97,7 @@ run(int argc, char** argv)
       "uvol_levelset",
       "in.pcd out.ply -iso v [options]",
       "Smooth a noisy or unevenly sampled field near an isosurface by a level set.\n"
-      "Output: the field phi, about the distance to the surface in the stretched space,\n"
+      "Output: the field phi, about the distance to the surface in stretched space,\n"
       "positive where values are higher.");
   uvol_tools::PointJob job(options, "A level set");
   declare(options, job, arguments);
