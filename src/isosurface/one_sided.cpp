@@ -21,8 +21,8 @@ constexpr std::size_t one_sided_block = 256;
 constexpr std::size_t deciding_samples = 8;
 
 /** Share of the distance between the two samples of an edge. An isopoint with a smaller
- * error is known from its fit, as an automatic largest error says as well, and on one side of a
- * curved or noisy surface 8 samples may lie by chance. */
+ * error is known from its fit, as an automatic largest error says as well, and on one
+ * side of a curved or noisy surface 8 samples may lie by chance. */
 constexpr float known_part = 0.5f;
 
 } // namespace

@@ -44,8 +44,8 @@ struct MessageValue {
   std::variant<double, std::string> value;
 };
 
-/** \brief What a run tells beside its result. Whether it warns or ends the run is said by
- * its place: Report::warnings or an exception, `warnings` or `error` in JSON. */
+/** \brief What a run tells beside its result. Whether it warns or ends the run is said
+ * by its place: Report::warnings or an exception, `warnings` or `error` in JSON. */
 struct PCL_UVOL_EXPORTS Message {
   /** \brief A message of the table.
    * \param row its code in the table, which stays when the text changes
