@@ -17,21 +17,34 @@ STRICT = ("README.md", "docs/index.md", "docs/install.md", "docs/quickstart.md",
           "src/common/warning_texts.cpp", "src/common/error_texts.cpp")
 MOST_WORDS, MOST_IN_MESSAGES, MOST_IN_PARAGRAPH = 30, 28, 90
 PRIVATE = {
-    r"\b(is|are|was|were) told\b|\btells? (of|the|a|which|what|how|its|whether)\b": "report, list, predict",
-    r"\bwhat (lies|is left|they|it) ": "name the thing",
-    r"\b(stands?|stood) (in|at|beside|behind|for)\b": "is in, represents",
+    r"\b(is|are|was|were) told\b|\btold (of|as|apart|by|no)\b|\btells? (of|the|a|which|what|how|its|whether|area|nothing)\b":
+        "report, list, predict",
+    r"\bwhat (lies|is left|they|it|the samples|no|comes|was weighed|looks|walls|is known) ": "name the thing",
+    r"\b(stands?|stood) (in|at|before|beside|there|behind|for)\b|\bstand at every\b": "is in, represents",
+    r"\bhold(s|ing)? (each|every|both|what|them) (count|against|to)\b|\bholds? .{3,40} against\b": "check against",
+    r"\b(told|known|is) no better\b": "not more accurate than",
     r"\bg(oes|o) (without|with|by)\b(?! the)": "cannot be combined with, requires, is based on",
-    r"\b(is|are) no (number|file|list|table|label|text|whole numbers|slips|times|clusters?|coordinates|steps)\b|\b(is|are) (?-i:none)\b":
-        "is not a",
+    r"\b(is|are) no (number|file|list|table|label|text|comparison|STL|vtkDataSet|web page|probabilit|whole numbers|slips|times"
+    r"|clusters?|coordinates|steps|known|finite|manifold)\b|\b(is|are) (?-i:none)\b": "is not a",
+    r"(?<!farther )\bfrom 0\b(?!\s*(to|\.|,?\d))": "non-negative, 0-based",
     r"\bsurer\b|\bsure of\b": "more certain, smaller standard error",
     r"\bstray(s|ing)?\b": "outlier",
     r"\bmend(s|ed|ing)?\b": "fix, correct",
-    r"\bunasked\b|\bnot to be had\b": "by default, not available",
+    r"\bthe mere\b|\bmere points\b": "only the, plain",
+    r"\bone'?s own\b|\bof (its|their) own\b": "separate, custom",
+    r"\bfilms?\b": "animation, video",
+    r"(?-i:\bfigures\b)(?! \d)": "numbers, measurements, results",  # Figures begins a title; a figure is a drawing
+    r"\bways?\b(?=s? beside| of kilomet|,? too)|\bthe whole way\b": "path, pipeline",
+    r"\bunasked\b|\bnot to be had\b|\bof no use\b": "by default, not available, invalid",
     r"\bsamples? (that (were|are) )?left out\b": "held-out samples",
+    r"\bon which side\b.{0,40}\blie\b|\blie on the right side\b": "are classified correctly",
+    r"\ba (wish|need|question) for\b": "I want",
     r"\bbox(es)? that repeats?\b": "periodic box",
     r"\balways (say(ing)? )?the same\b": "majority class",
     r"\bguess(es|ed)?\b": "not constrained by the samples",
+    r"\bchildren? of the\b|\bstrangers?\b": "untrusted",
     r"\bslips? past\b|\bhangs? together\b": "passes between, is connected",
+    r"\b(fewer|larger|others?|those|these) (of|than) (it|them) (is|are|stay|count)\b": "name the noun",
     r"\blooks? (away|to the)\b": "points, faces",
 }
 
@@ -139,16 +152,26 @@ def judge_program(text):
                 yield text.count("\n", 0, row.start()) + 1, found
 
 
+def judge_public_header(text):
+    """Comments that Doxygen reads, and strings, such as help texts."""
+    yield from judge_header(text)
+    yield from judge_program(text)
+
+
 def list_sources(root):
     """Path and judge of each file."""
-    for name in ("README.md", "python/README.md", "CONTRIBUTING.md", "tests/benchmarks/README.md"):
+    tables = {root / "src/common" / name for name in ("warning_texts.cpp", "error_texts.cpp")}
+    for name in ("README.md", "python/README.md", "CONTRIBUTING.md", "CHANGELOG.md", "SECURITY.md", "examples/README.md",
+                 "tests/benchmarks/README.md"):
         yield root / name, judge_page
-    for folder, pattern, judge_file in (("docs", "*.md", judge_page), ("include", "*.h", judge_header),
-                                        ("python/pcl_uvol", "*.py", judge_docstrings), ("tools", "*.cpp", judge_program)):
+    for folder, pattern, judge_file in (("docs", "*.md", judge_page), ("include", "*.h", judge_public_header),
+                                        ("python/pcl_uvol", "*.py", judge_docstrings), ("tools", "*.cpp", judge_program),
+                                        ("tools", "*.h", judge_program), ("src", "*.cpp", judge_program)):
         for path in sorted((root / folder).rglob(pattern)):
-            yield path, judge_file
-    for name in ("warning_texts.cpp", "error_texts.cpp"):
-        yield root / "src/common" / name, judge_messages
+            if path not in tables:
+                yield path, judge_file
+    for path in sorted(tables):
+        yield path, judge_messages
 
 
 def main():

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs the commands of pages, those in ```sh blocks, each page in a folder of its own, and asks that every
 picture (.png) in a folder of pictures/ that a page shows is made by them, and those beside these folders where
-commands of the page name them. Below a line <!-- not run: WHY --> a block is left
+commands of the page name them. Each line of a ```text block must be printed by the ```sh block above it, except "..."
+and lines that depend on the machine. Below a line <!-- not run: WHY --> a block is left
 out, and below <!-- long: WHY --> as well, but with --long; commands in indented blocks, which nothing would run,
 are refused.
 
@@ -19,10 +20,26 @@ import sys
 import tempfile
 
 BLOCK = re.compile(r"^(?:<!-- (not run|long): [^\n]+ -->\n)?```sh\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+BLOCK_OR_TEXT = re.compile(BLOCK.pattern + r"|^```text\n(.*?)^```$", BLOCK.flags)
+MACHINE = re.compile(r"\.\.\.$|memory: |backend: |.*\b\d[\d.e+-]* m?s\b")  # lines that differ between machines
+END_OF_BLOCK = "end of block of run_commands.py\n"
 INDENTED = re.compile(r"\n\n {4}((?:uvol|cmake|mpirun)[ _].*)")
 PICTURE = re.compile(r"\]\(((?:\.\./)?pictures/((?:[a-z]+/)?)([^)/]+\.png))\)")
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 LINKED = ("tools", "examples")
+
+
+def find_stale_line(text, run, output):
+    """The first line of a text block that the block of commands above it does not print."""
+    outputs, printed = iter(output.split(END_OF_BLOCK)), None
+    for mark, commands, shown in BLOCK_OR_TEXT.findall(text):
+        if commands:
+            printed = {line.strip() for line in next(outputs).splitlines()} if mark in run else None
+            continue
+        for line in map(str.strip, shown.splitlines() if printed is not None else []):
+            if line and line not in printed and not MACHINE.match(line):
+                return line
+    return ""
 
 
 def run_page(page, bin_folder, flags):
@@ -32,7 +49,8 @@ def run_page(page, bin_folder, flags):
         return f"{page}: nothing runs this command, which belongs into a block of sh: {lost.group(1)}"
     run = ("", "long") if "--long" in flags else ("",)
     blocks = BLOCK.findall(text)
-    script = "set -euo pipefail\n" + "\n".join(commands for mark, commands in blocks if mark in run)
+    script = "set -euo pipefail\nexec 2>&1\n" + "".join(
+        f"{commands}\nprintf '{END_OF_BLOCK.strip()}\\n'\n" for mark, commands in blocks if mark in run)
     left_out = "".join(commands for mark, commands in blocks if mark not in run)
     environment = dict(os.environ, PATH=f"{bin_folder}:{os.environ['PATH']}")
     with tempfile.TemporaryDirectory() as folder:
@@ -40,7 +58,7 @@ def run_page(page, bin_folder, flags):
             (pathlib.Path(folder) / name).symlink_to(REPOSITORY / name)
         result = subprocess.run(["bash", "-c", script], cwd=folder, env=environment, capture_output=True, text=True)
         if result.returncode != 0:
-            return f"{page}: a command failed: {result.stderr.strip()}"
+            return f"{page}: a command failed: {result.stdout.split(END_OF_BLOCK)[-1].strip()}"
         for shown, kind, name in PICTURE.findall(text):
             made = pathlib.Path(folder) / name
             # Those of no kind are the gallery's, which other pages show as well.
@@ -52,7 +70,8 @@ def run_page(page, bin_folder, flags):
                 target = page.parent / shown
                 target.parent.mkdir(parents=True, exist_ok=True)
                 shutil.copy(made, target)
-    return ""
+    stale = find_stale_line(text, run, result.stdout)
+    return stale and f"{page}: the commands above it do not print this line: {stale}"
 
 
 def needs_data_sets(page):

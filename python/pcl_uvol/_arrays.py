@@ -59,7 +59,7 @@ def as_array(values, what):
 
 
 def _from_pandas(values):
-    """A column, array or table of pandas: missing values of its own types of numbers are NaN."""
+    """A column, array or table of pandas: missing values of the number types of pandas are NaN."""
     dtypes = getattr(values, "dtypes", getattr(values, "dtype", None))
     kinds = list(dtypes) if hasattr(dtypes, "__iter__") else [dtypes]
     if any(hasattr(kind, "numpy_dtype") for kind in kinds):

@@ -23,7 +23,7 @@ def read(path, xyz=("", "", ""), particles="", cells=False, progress=None, map=N
         bhclassic of Houdini. .gz, .bz2 or .zst may follow. Snapshots of Gadget may have any
         name. "-" is standard input. Files of VTK report no progress.
     xyz : sequence of three str, optional
-        Columns of a text file that hold the coordinates, by names or numbers from 0; by
+        Columns of a text file that hold the coordinates, by names or zero-based numbers; by
         default they are found by usual names.
     particles : str
         Of a snapshot: gas, dm, disk, bulge, stars, bh, or a number; by default gas, else

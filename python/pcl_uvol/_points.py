@@ -116,8 +116,8 @@ class Points(Bridges):
 
     @property
     def labels(self):
-        """dict of str to list of str: for each column of names, the names of the numbers
-        from 0, in alphabetical order; -1 is a missing name.
+        """dict of str to list of str: for each column of names, the names of the
+        zero-based numbers, in alphabetical order; -1 is a missing name.
 
         Examples
         --------

@@ -70,7 +70,7 @@ class Samples(Drawable, Points):
 
     @classmethod
     def _of(cls, dataset, report=None, parameters=None, like=None):
-        """`like` has the same points: what is known of their file goes for these as well."""
+        """`like` has the same points, so the facts about its file apply to these as well."""
         samples = cls.__new__(cls)
         samples._begin(dataset)
         samples._read_cells = None if like is None else like._read_cells

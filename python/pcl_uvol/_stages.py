@@ -176,7 +176,7 @@ class Clusters:
     Attributes
     ----------
     labels : numpy.ndarray of int32, shape (n,)
-        From 0 by decreasing size; -1: noise.
+        Zero-based label by decreasing size; -1: noise.
     probabilities : numpy.ndarray of float32, shape (n,)
         How surely a sample belongs to its cluster.
     tree : dict of numpy.ndarray

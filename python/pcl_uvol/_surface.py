@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Isosurfaces: extraction and what comes out."""
+"""Isosurfaces: extraction and results."""
 
 import base64
 import html

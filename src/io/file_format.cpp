@@ -97,9 +97,9 @@ throwUnknown(const std::string& path, const std::string& ending)
   throwUnreadable(
       path,
       describeEnding(ending) + (nearest.empty() ? "" : ", but " + nearest + " is") +
-          "; points are read from .pcd, .ply, .csv, .txt, .xyz, .dat, "
+          "; the formats are .pcd, .ply, .csv, .txt, .xyz, .dat, "
           ".tsv, .vtk, .vtp, .vtu, .vts, .las, .npy, .npz, .nc, .bgeo, PLOT3D, Exodus, "
-          "EnSight, OpenFOAM, files of HDF5 and snapshots of Gadget");
+          "EnSight, OpenFOAM, HDF5 and Gadget");
 }
 
 FileFormat
