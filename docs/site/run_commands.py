@@ -3,7 +3,7 @@
 """Runs the commands of pages, those in ```sh blocks, each page in a folder of its own, and asks that every
 picture (.png) in a folder of pictures/ that a page shows is made by them, and those beside these folders where
 commands of the page name them. Each line of a ```text block must be printed by the ```sh block above it, except "..."
-and lines that depend on the machine. Below a line <!-- not run: WHY --> a block is left
+and lines that depend on the machine. Below a line <!-- not run: WHY --> a block, also of text, is left
 out, and below <!-- long: WHY --> as well, but with --long; commands in indented blocks, which nothing would run,
 are refused.
 
@@ -20,7 +20,7 @@ import sys
 import tempfile
 
 BLOCK = re.compile(r"^(?:<!-- (not run|long): [^\n]+ -->\n)?```sh\n(.*?)^```$", re.MULTILINE | re.DOTALL)
-BLOCK_OR_TEXT = re.compile(BLOCK.pattern + r"|^```text\n(.*?)^```$", BLOCK.flags)
+BLOCK_OR_TEXT = re.compile(BLOCK.pattern + r"|^(<!-- not run: [^\n]+ -->\n)?```text\n(.*?)^```$", BLOCK.flags)
 MACHINE = re.compile(r"\.\.\.$|memory: |backend: |.*\b\d[\d.e+-]* m?s\b")  # lines that differ between machines
 END_OF_BLOCK = "end of block of run_commands.py\n"
 INDENTED = re.compile(r"\n\n {4}((?:uvol|cmake|mpirun)[ _].*)")
@@ -32,11 +32,13 @@ LINKED = ("tools", "examples")
 def find_stale_line(text, run, output):
     """The first line of a text block that the block of commands above it does not print."""
     outputs, printed = iter(output.split(END_OF_BLOCK)), None
-    for mark, commands, shown in BLOCK_OR_TEXT.findall(text):
+    for mark, commands, is_unprinted, shown in BLOCK_OR_TEXT.findall(text):
         if commands:
             printed = {line.strip() for line in next(outputs).splitlines()} if mark in run else None
             continue
-        for line in map(str.strip, shown.splitlines() if printed is not None else []):
+        if printed is None or is_unprinted:
+            continue
+        for line in map(str.strip, shown.splitlines()):
             if line and line not in printed and not MACHINE.match(line):
                 return line
     return ""

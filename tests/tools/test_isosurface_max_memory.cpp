@@ -193,6 +193,7 @@ TEST_F(MaxMemory, SaysWhatIsWrong)
   expectFailure(iso_ + "-max-memory 100M", 1, "at least");
   expectFailure(iso_ + bound_ + "-smooth", 2, "-smooth");
   expectFailure(iso_ + bound_ + "-scale auto", 2, "-scale auto");
+  expectFailure(iso_ + bound_ + "-fill-gaps -smooth", 2, "-smooth, -fill-gaps: all");
   expectFailure(iso_ + bound_ + "-neighbors voronoi", 2, "-neighbors voronoi");
   expectFailure(iso_ + bound_ + "-where 'x>0'", 2, "-where");
   expectFailure(iso_ + bound_ + "-fill-gaps", 2, "-fill-gaps");
