@@ -96,7 +96,7 @@ readPieceList(const std::string& path)
     pieces.push_back((std::filesystem::path(path).parent_path() / *source).string());
   }
   if (!is_list || !scanner.getOpen().empty())
-    throwUnreadable(path, "it is truncated or no list of pieces of polygonal data");
+    throwUnreadable(path, "it is truncated or not a list of pieces of polygonal data");
   if (pieces.empty())
     throwUnreadable(path, "it lists no pieces");
   return pieces;

@@ -141,8 +141,8 @@ TEST_F(ArrayFiles, ArraysThatAreNoPointsAreRefused)
            {npy("'<f4'", "(3, 2)") + std::string(24, '\0'), "a row per point"},
            {npy("'<U4'", "(3, 3)") + std::string(200, '\0'), "type '<U4'"},
            {npy("'<f4'", "(4611686018427387904, 3)"), "larger than"},
-           {npy("'<f4'", "(-1, 3)"), "no description"},
-           {npy("{", ")"), "no description"},
+           {npy("'<f4'", "(-1, 3)"), "does not describe"},
+           {npy("{", ")"), "does not describe"},
            {"nothing that NumPy wrote", "not a NumPy array"}})
     EXPECT_NE(std::string::npos, sentenceOf(save("a.npy", bytes)).find(words)) << words;
 }

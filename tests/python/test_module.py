@@ -429,7 +429,7 @@ def test_parameters_are_explained_where_they_are_listed():
     assert "parameters" not in signature.parameters
     text = inspect.getdoc(uvol.level_set)
     assert "{parameters}" not in text
-    assert 'flow : {"mean", "relative"}, default "relative"\n    What smooths' in text
+    assert 'flow : {"mean", "relative"}, default "relative"\n    Smoothing flow' in text
     assert "\nk : int, default 26\n    Nearest neighbours" in text
     assert "\nk : int, default 30\n    Nearest neighbours besides the point" in inspect.getdoc(uvol.normals)
     with pytest.raises(TypeError, match="did you mean 'tolerance'"):
