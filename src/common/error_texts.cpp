@@ -739,7 +739,7 @@ const MessageText error_rows[] = {
     {"no_points_to_show", "There are no points to be shown."},
     {"all_values_equal",
      "All values of {field} are equal: there is no isosurface between them."},
-    {"isovalue_beyond_values",
+    {"isovalue_beyond_range",
      "The isovalue {isovalue} is outside the range of {field}, {low} to {high}."},
     {"mesh_of_surface_points",
      "A mesh is made of samples, and these are points of a surface. Try: {-field} for "

@@ -108,7 +108,7 @@ TEST_F(ScaleOptions, RefuseWhatTheyCannotMean)
           std::pair("-scale -1,1,1", "-scale takes three positive factors"),
           std::pair("-scale 1,0,1", "-scale takes three positive factors"),
           std::pair("-scale 1,1,1e-60", "-scale takes three positive factors"),
-          std::pair("-scale 1,0,0,0,1,0,0,0,0", "one plane"),
+          std::pair("-scale 1,0,0,0,1,0,0,0,0", "coplanar"),
           std::pair("-scale 1,0,0,0,1,0,0,0,2 -rotate 0,0,0", "-rotate"),
           std::pair("-scale automatic", "-scale"),
           std::pair("-rotate 0,91,0", "0 to 90"),

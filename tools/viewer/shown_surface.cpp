@@ -202,7 +202,7 @@ ShownSurface::setIsoValues(const std::vector<double>& isovalues)
 {
   for (const double isovalue : isovalues)
     if (!(isovalue >= range_[0] && isovalue <= range_[1]))
-      throw InvalidArgument("isovalue_beyond_values",
+      throw InvalidArgument("isovalue_beyond_range",
                             {{"low", range_[0]},
                              {"high", range_[1]},
                              {"field", field_},
