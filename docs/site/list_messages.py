@@ -94,7 +94,7 @@ def main():
         sys.exit(__doc__)
     root = pathlib.Path(sys.argv[1])
     tables, sources = {title: read_rows(root / path) for title, path in TABLES.items()}, read_sources(root)
-    codes = [code for rows in tables.values() for code in rows]
+    codes = [code for path in TABLES.values() for code, _ in ROW.findall((root / path).read_text())]
     wrong = [f"No table has the code '{code}'." for code in sorted(set(USED.findall(sources)) - {*codes, TEXT})]
     wrong += [f"No source uses the code '{code}'." for code in codes if f'"{code}"' not in sources]
     wrong += [f"The code '{code}' has two rows." for code in set(codes) if codes.count(code) > 1]
