@@ -155,16 +155,22 @@ private:
 /** Bytes of a stage on many processes, per sample of a process. */
 constexpr double rank_sample_bytes = 130.0;
 
-/** \throws NotEnoughMemory on all processes if one of them has too little */
+} // namespace
+
+BlockStore::~BlockStore() = default;
+PieceTask::~PieceTask() = default;
+PieceStage::~PieceStage() = default;
+
 void
-checkMemoryTogether(std::size_t samples, Communicator& communicator)
+checkMemoryTogether(const std::string& task,
+                    std::size_t points,
+                    double bytes,
+                    Communicator& communicator)
 {
   std::vector<std::uint64_t> failed{0};
   std::optional<NotEnoughMemory> own;
   try {
-    checkMemoryOf("The part of this process",
-                  samples,
-                  rank_sample_bytes * static_cast<double>(samples));
+    checkMemoryOf(task, points, bytes);
   }
   catch (const NotEnoughMemory& error) {
     own = error;
@@ -177,12 +183,6 @@ checkMemoryTogether(std::size_t samples, Communicator& communicator)
     throw NotEnoughMemory("memory_of_other_processes", {{"processes", failed[0]}});
 }
 
-} // namespace
-
-BlockStore::~BlockStore() = default;
-PieceTask::~PieceTask() = default;
-PieceStage::~PieceStage() = default;
-
 StageSamples
 runOnRanks(PieceStage& stage,
            Samples&& samples,
@@ -190,7 +190,10 @@ runOnRanks(PieceStage& stage,
            unsigned threads,
            Report& report)
 {
-  checkMemoryTogether(samples.size(), communicator);
+  checkMemoryTogether("The part of this process",
+                      samples.size(),
+                      rank_sample_bytes * static_cast<double>(samples.size()),
+                      communicator);
   RankStore store(std::move(samples), communicator, threads, report);
   return StageRun(stage, store, threads, report).run();
 }

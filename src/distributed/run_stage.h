@@ -51,6 +51,15 @@ runOnRanks(PieceStage& stage,
            unsigned threads,
            Report& report);
 
+/** \brief checkMemoryOf() by all processes together: one that threw alone would leave
+ * the others waiting.
+ * \throws NotEnoughMemory on all of them if one has too little */
+PCL_UVOL_EXPORTS void
+checkMemoryTogether(const std::string& task,
+                    std::size_t points,
+                    double bytes,
+                    Communicator& communicator);
+
 /** \brief Where samples go that memory does not hold. */
 struct OutOfCoreSettings {
   std::uint64_t max_memory = 0;     ///< bytes that the process may take

@@ -122,15 +122,6 @@ private:
   std::vector<std::pair<std::uint32_t, Vector3d>> found_;
 };
 
-/** Whether a partial sill that is given fits the variance of the samples, and not the
- * rest that the nugget leaves of it. */
-bool
-looksLikeTotal(const Variogram& given, double variance)
-{
-  return given.psill > given.nugget &&
-         std::abs(given.psill - variance) < 0.5 * given.nugget;
-}
-
 double
 computeVariance(const SampledFields& sampled, std::size_t field)
 {
@@ -177,8 +168,11 @@ KrigingModel::KrigingModel(const SampledFields& sampled,
                                                        : KrigingTarget(fitted));
     if (!(fitted.psill + fitted.nugget > 0.0))
       constant_.push_back(names[f]);
+    if (!(given.psill > given.nugget)) // or one of them is not given
+      continue;
+    // Does it fit the variance, and not the rest that the nugget leaves of it?
     const double variance = computeVariance(sampled, f);
-    if (looksLikeTotal(given, variance))
+    if (std::abs(given.psill - variance) < 0.5 * given.nugget)
       total_sills_.push_back({"total_sill",
                               {{"field", names[f]},
                                {"psill", parameters.psill},

@@ -42,32 +42,33 @@ computeChecksum(const std::string& bytes)
   std::array<std::uint32_t, words> sum;
   sum.fill(0xdeadbeef + static_cast<std::uint32_t>(bytes.size()));
   auto& [a, b, c] = sum;
+  const auto mix = [](auto& x, auto& y, auto& z, int bits) {
+    x = (x - z) ^ rotated(z, bits);
+    z += y;
+  };
+  const auto finish = [](auto& x, auto& y, int bits) {
+    x = (x ^ y) - rotated(y, bits);
+  };
   for (std::size_t at = 0; at < bytes.size(); at += block) {
     for (std::size_t i = at; i < std::min(at + block, bytes.size()); ++i)
       sum[(i - at) / 4] += std::uint32_t{static_cast<std::uint8_t>(bytes[i])}
                            << (8 * (i % 4));
     if (at + block >= bytes.size())
       break;
-    a = (a - c) ^ rotated(c, 4);
-    c += b;
-    b = (b - a) ^ rotated(a, 6);
-    a += c;
-    c = (c - b) ^ rotated(b, 8);
-    b += a;
-    a = (a - c) ^ rotated(c, 16);
-    c += b;
-    b = (b - a) ^ rotated(a, 19);
-    a += c;
-    c = (c - b) ^ rotated(b, 4);
-    b += a;
+    mix(a, b, c, 4);
+    mix(b, c, a, 6);
+    mix(c, a, b, 8);
+    mix(a, b, c, 16);
+    mix(b, c, a, 19);
+    mix(c, a, b, 4);
   }
-  c = (c ^ b) - rotated(b, 14);
-  a = (a ^ c) - rotated(c, 11);
-  b = (b ^ a) - rotated(a, 25);
-  c = (c ^ b) - rotated(b, 16);
-  a = (a ^ c) - rotated(c, 4);
-  b = (b ^ a) - rotated(a, 14);
-  c = (c ^ b) - rotated(b, 24);
+  finish(c, b, 14);
+  finish(a, c, 11);
+  finish(b, a, 25);
+  finish(c, b, 16);
+  finish(a, c, 4);
+  finish(b, a, 14);
+  finish(c, b, 24);
   return c;
 }
 

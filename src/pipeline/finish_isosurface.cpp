@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/finish_isosurface.h"
 
-#include "common/memory.h"
 #include "common/records.h"
 #include "common/scalar_field.h"
+#include "distributed/run_stage.h"
 #include "isosurface/iso_edges.h"
 #include "isosurface/memory_need.h"
 #include "pipeline/gap_filling.h"
@@ -166,10 +166,11 @@ finishIsosurface(const Dataset& samples,
   const CloudView view = viewOf(samples.cloud);
   pcl::PointCloud<PointIso>& isopoints = found.vertices;
   IsoEdges& edges = found.edges;
-  checkMemoryOf("A surface with its fields",
-                isopoints.size(),
-                surfaceFieldsBytes(static_cast<double>(isopoints.size()),
-                                   static_cast<double>(samples.cloud.point_step)));
+  checkMemoryTogether("A surface with its fields",
+                      isopoints.size(),
+                      surfaceFieldsBytes(static_cast<double>(isopoints.size()),
+                                         static_cast<double>(samples.cloud.point_step)),
+                      communicator);
   IsopointChoice choice =
       chooseIsopoints(view, edges, parameters, threads, isopoints, report);
   if (gaps)

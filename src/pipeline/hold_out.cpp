@@ -359,63 +359,59 @@ constexpr std::size_t least_beyond_error = 30;
 constexpr double trusted_side = 0.8;
 /** @} */
 
+namespace {
+
+/** The score of which a number is largest, null where none is above 0. */
+template <typename Excess>
+const ValidationScore*
+findWorst(const std::vector<ValidationScore>& scores, const Excess& excess)
+{
+  const ValidationScore* worst = nullptr;
+  for (const ValidationScore& score : scores)
+    if (excess(score) > (worst != nullptr ? excess(*worst) : 0.0))
+      worst = &score;
+  return worst;
+}
+
+} // namespace
+
 void
 warnOfScores(const std::vector<ValidationScore>& scores,
              const IsosurfacePipelineParameters& parameters,
              const std::optional<SamplingSummary>& sampling,
              Report& report)
 {
-  const bool lie_all_around = sampling && sampling->most == LocalDimension::Volume;
-  // Of several isovalues, the worst one is told.
-  const auto warn_worst = [&](const auto& excess, const auto& describe) {
-    const auto worst = std::max_element(
-        scores.begin(), scores.end(), [&](const auto& a, const auto& b) {
-          return excess(a).value_or(0.0) < excess(b).value_or(0.0);
-        });
-    if (worst != scores.end() && excess(*worst))
-      report.warnings.push_back(describe(*worst));
-  };
   const auto percent = [](double share) { return std::round(100.0 * share); };
-  const auto beyond = [](double excess) {
-    return excess > 0.0 ? std::optional(excess) : std::nullopt;
+  const auto list_shares = [&](const ValidationScore& score) {
+    return std::vector<MessageValue>{{"surface", percent(score.side.predicted)},
+                                     {"samples", score.covered},
+                                     {"baseline", percent(score.side.base)},
+                                     {"nearest", percent(score.side.nearest)}};
   };
-  const auto with_shares = [&](Message message, const ValidationScore& score) {
-    message.values.insert(
-        message.values.begin(),
-        {{"surface", percent(score.side.predicted)}, {"samples", score.covered}});
-    return message;
-  };
-  warn_worst(
-      [&](const ValidationScore& score) {
-        return beyond(score.side.base - score.side.predicted);
-      },
-      [&](const ValidationScore& score) {
-        return with_shares(
-            {"worse_than_baseline", {{"baseline", percent(score.side.base)}}}, score);
-      });
-  warn_worst(
-      [&](const ValidationScore& score) {
-        return beyond(score.side.nearest - score.side.predicted - score.side_error);
-      },
-      [&](const ValidationScore& score) {
-        std::vector<MessageValue> values{{"nearest", percent(score.side.nearest)}};
-        if (lie_all_around)
-          return with_shares({"worse_than_nearest_sample", std::move(values)}, score);
-        for (MessageValue& remedy : listRemedies(parameters))
-          values.push_back(std::move(remedy));
-        return with_shares({"worse_than_nearest_on_lines", std::move(values)}, score);
-      });
-  warn_worst(
-      [&](const ValidationScore& score) {
-        return score.beyond_error >= least_beyond_error
-                   ? beyond(trusted_side - score.side_beyond_error)
-                   : std::nullopt;
-      },
-      [&](const ValidationScore& score) {
-        return Message{"small_errors",
-                       {{"samples", score.beyond_error},
-                        {"percent", percent(1.0 - score.side_beyond_error)}}};
-      });
+  if (const auto* const score = findWorst(scores, [](const ValidationScore& tested) {
+        return tested.side.base - tested.side.predicted;
+      }))
+    report.warn("worse_than_baseline", list_shares(*score));
+  if (const auto* const score = findWorst(scores, [](const ValidationScore& tested) {
+        return tested.side.nearest - tested.side.predicted - tested.side_error;
+      })) {
+    const bool lie_all_around = sampling && sampling->most == LocalDimension::Volume;
+    Message better(lie_all_around ? "worse_than_nearest_sample"
+                                  : "worse_than_nearest_on_lines",
+                   list_shares(*score));
+    if (!lie_all_around)
+      for (MessageValue& remedy : listRemedies(parameters))
+        better.values.push_back(std::move(remedy));
+    report.warnings.push_back(std::move(better));
+  }
+  if (const auto* const score = findWorst(scores, [](const ValidationScore& tested) {
+        return tested.beyond_error < least_beyond_error
+                   ? 0.0
+                   : trusted_side - tested.side_beyond_error;
+      }))
+    report.warn("small_errors",
+                {{"samples", score->beyond_error},
+                 {"percent", percent(1.0 - score->side_beyond_error)}});
 }
 
 Folds

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The pipeline of several ranks gives what that of one process gives.
+#include "common/memory.h"
 #include "common/records.h"
 #include "distributed/merge_reports.h"
+#include "distributed/run_stage.h"
 #include "pipeline/run_pipeline.h"
 #include "support/clouds.h"
 #include "support/environment.h"
@@ -13,6 +15,7 @@
 #include <gtest/gtest.h>
 #include <pcl/conversions.h>
 
+#include <atomic>
 #include <mutex>
 #include <set>
 #include <string>
@@ -185,6 +188,26 @@ TEST(DistributedIsosurfacePipeline, RefusesWhatNeedsAllSamples)
       EXPECT_THROW(pipeline.run(), InvalidArgument) << what;
     }
   });
+}
+
+/** One process that has too little memory leaves no other one waiting. */
+TEST(DistributedIsosurfacePipeline, AllProcessesRefuseTogether)
+{
+  std::atomic<int> refused{0};
+  uvol_test::runRanks(3, [&](pcl_uvol::Communicator& communicator) {
+    const double bytes = communicator.rank() == 1 ? 1e18 : 1.0;
+    try {
+      pcl_uvol::checkMemoryTogether("A part", 7, bytes, communicator);
+    }
+    catch (const pcl_uvol::NotEnoughMemory& error) {
+      const bool is_own = communicator.rank() == 1;
+      EXPECT_EQ(is_own ? "not_enough_memory" : "memory_of_other_processes",
+                error.asMessage().code);
+      ++refused;
+    }
+    EXPECT_NO_THROW(pcl_uvol::checkMemoryTogether("A part", 7, 1.0, communicator));
+  });
+  EXPECT_EQ(3, refused);
 }
 
 } // namespace test_distributed_isosurface_pipeline

@@ -166,7 +166,7 @@ TEST(Validation, SaysWhoIsBetterThanTheSurface)
   sampling = SamplingSummary{{0.0, 0.0, 0.0, 1.0}, LocalDimension::Volume, 1.0f, 1.0f};
   ASSERT_EQ(1u, warn(7, 3, 50).size());
   EXPECT_EQ("worse_than_nearest_sample", warn(7, 3, 50)[0].code);
-  EXPECT_EQ(3u, warn(7, 3, 50)[0].values.size()); // nothing is advised
+  EXPECT_EQ(4u, warn(7, 3, 50)[0].values.size()); // nothing is advised
   ASSERT_EQ(1u, warn(0, 0, 25).size());
   EXPECT_EQ("worse_than_baseline", warn(0, 0, 25)[0].code);
   EXPECT_EQ(75.0, uvol_test::numberOf(warn(0, 0, 25)[0], "baseline"));
