@@ -20,13 +20,14 @@ target_compile_options(pcl_uvol_hardening INTERFACE
 target_link_options(pcl_uvol_hardening INTERFACE $<$<CONFIG:Release>:LINKER:-z,relro,-z,now>)
 
 # Tools and the Python module call the libraries and need not be fast themselves: -O1 takes half of the time of -O3 to compile.
-# Precompiled headers keep their level, so that these have some of their own.
+# Precompiled headers keep their level, so that these have some of their own, which serve shared libraries as well.
 add_library(pcl_uvol_front_end INTERFACE)
-target_compile_options(pcl_uvol_front_end INTERFACE $<$<CONFIG:Release>:-O1>)
+target_compile_options(pcl_uvol_front_end INTERFACE -fPIC $<$<CONFIG:Release>:-O1>)
 
 # PCL's and Eigen's headers take more than half of the time and of the memory that most sources take to compile.
-# pcl_uvol_precompile_headers(NAME LIBRARIES... [SHARED] [HEADERS <header>...]) reads them once, with the flags that
-# these libraries ask for, and for shared libraries; targets with the same flags, and any macros more, take what it has read.
+# pcl_uvol_precompile_headers(NAME LIBRARIES... [SHARED] [HEADERS <header>...]) reads them once, with the flags of OpenMP and
+# those that these libraries ask for, and for shared libraries; targets with the same flags, and any macros more, take what it
+# has read.
 function(pcl_uvol_precompile_headers name)
   if(NOT PCL_UVOL_PRECOMPILE_HEADERS)
     return()
@@ -38,7 +39,8 @@ function(pcl_uvol_precompile_headers name)
   endif()
   add_library(${name} OBJECT EXCLUDE_FROM_ALL ${source})
   set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE ${precompile_SHARED})
-  target_link_libraries(${name} PRIVATE ${precompile_UNPARSED_ARGUMENTS} pcl_uvol_warnings pcl_uvol_determinism)
+  target_link_libraries(${name} PRIVATE
+    ${precompile_UNPARSED_ARGUMENTS} pcl_common OpenMP::OpenMP_CXX pcl_uvol_warnings pcl_uvol_determinism)
   target_include_directories(${name} SYSTEM PRIVATE ${PCL_COMMON_INCLUDE_DIRS})
   target_precompile_headers(${name} PRIVATE <pcl/PCLPointCloud2.h> <pcl/point_cloud.h> <pcl/point_types.h> <Eigen/Dense>
     <algorithm> <array> <cmath> <functional> <limits> <memory> <optional> <sstream> <string> <vector>
@@ -49,6 +51,7 @@ endfunction()
 
 # ccache has to see which headers these are (-fpch-preprocess).
 function(pcl_uvol_reuse_headers target name)
+  target_link_libraries(${target} PRIVATE OpenMP::OpenMP_CXX)
   if(PCL_UVOL_PRECOMPILE_HEADERS)
     target_precompile_headers(${target} REUSE_FROM ${name})
     target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
