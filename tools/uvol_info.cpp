@@ -230,8 +230,7 @@ addPositions(const std::string& path,
 {
   const auto positions =
       pcl_uvol::describePositions(dataset, stretch, threads, report.progress);
-  report.warnings.insert(
-      report.warnings.end(), positions.warnings.begin(), positions.warnings.end());
+  report.warn(positions.warnings);
   if (positions.non_finite == dataset.cloud.width)
     report.warn("no_finite_points", {{"path", path}});
   else {

@@ -20,12 +20,27 @@ addTo(std::vector<std::pair<std::string, T>>& entries, const std::string& name, 
   entries.emplace_back(name, value);
 }
 
+template <typename T>
+bool
+contains(const std::vector<T>& items, const T& item)
+{
+  return std::find(items.begin(), items.end(), item) != items.end();
+}
+
 } // namespace
 
 void
 Report::count(const std::string& name, std::uint64_t value)
 {
   addTo(counts, name, value);
+}
+
+void
+Report::countSamples(const std::string& name, std::uint64_t value)
+{
+  count(name, value);
+  if (!contains(of_samples_, name))
+    of_samples_.push_back(name);
 }
 
 void
@@ -55,17 +70,29 @@ Report::time(const std::string& step, double milliseconds_spent)
 void
 Report::warn(std::string code, std::vector<MessageValue> values)
 {
-  warnings.emplace_back(std::move(code), std::move(values));
+  warn({Message(std::move(code), std::move(values))});
+}
+
+void
+Report::warn(const std::vector<Message>& messages)
+{
+  for (const Message& message : messages)
+    if (!contains(warnings, message))
+      warnings.push_back(message);
 }
 
 void
 Report::merge(const Report& other)
 {
+  const std::vector<std::string> told = of_samples_;
   for (const auto& [name, value] : other.counts)
-    count(name, value);
+    if (!contains(other.of_samples_, name))
+      count(name, value);
+    else if (!contains(told, name))
+      countSamples(name, value);
   for (const auto& [step, value] : other.milliseconds)
     time(step, value);
-  warnings.insert(warnings.end(), other.warnings.begin(), other.warnings.end());
+  warn(other.warnings);
 }
 
 StepTimer::StepTimer(Report& report, std::string step, std::uint64_t total)

@@ -159,8 +159,8 @@ detail::estimateGradients(const CloudView& cloud,
   const auto use = pointsWithValue(values, indices, field);
   const auto samples = SampleSet::build(
       cloud.xyz(0), cloud.stride(), use, Position{{1.0f, 1.0f, 1.0f}}, threads, report);
-  report.count("no_value", indices.size() - use.size());
-  report.count("samples", samples->size());
+  report.countSamples("no_value", indices.size() - use.size());
+  report.countSamples("samples", samples->size());
   const auto f = gatherValues(*samples, values, threads, report).values;
   const NeighborGraph neighbors =
       search ? computeNearestNeighbors(*samples, parameters.k, threads, search, report)

@@ -90,7 +90,7 @@ fromBytes(const Bytes& bytes)
     report.time(step, reader.get<double>());
   }
   for (auto count = reader.get<std::size_t>(); count > 0; --count)
-    report.warnings.push_back(getWarning(reader));
+    report.warn({getWarning(reader)});
   return report;
 }
 
@@ -127,10 +127,7 @@ mergeReports(const Report& report,
       keepLargest(most, "largest_" + name, other.getCount(name));
     for (const auto& [step, value] : other.milliseconds)
       keepLargest(merged.milliseconds, step, value);
-    for (const Message& warning : other.warnings)
-      if (std::find(merged.warnings.begin(), merged.warnings.end(), warning) ==
-          merged.warnings.end())
-        merged.warnings.push_back(warning);
+    merged.warn(other.warnings);
   }
   merged.counts.insert(merged.counts.end(), most.begin(), most.end());
   return merged;

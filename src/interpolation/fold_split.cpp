@@ -41,15 +41,11 @@ FoldSplit::interpolate(const CloudView& cloud,
     const float* const xyz = cloud.xyz(static_cast<std::size_t>(index));
     places.push_back({xyz[0], xyz[1], xyz[2]});
   }
-  Report own;
-  own.progress = report.progress;
-  const FieldInterpolator interpolator(cloud, rest, parameters, threads, own);
+  Report read, own; // all samples together tell of what is read
+  read.progress = own.progress = report.progress;
+  const FieldInterpolator interpolator(cloud, rest, parameters, threads, read);
   InterpolatedFields result = interpolator.interpolate(places, threads, own);
-  for (const Message& warning : own.warnings)
-    if (warning.code != "conflicting_samples" && // which all samples together tell of
-        std::find(report.warnings.begin(), report.warnings.end(), warning) ==
-            report.warnings.end())
-      report.warnings.push_back(warning);
+  report.warn(own.warnings);
   return result;
 }
 

@@ -227,8 +227,7 @@ KrigingModel::tell(Report& report) const
 {
   for (const std::string& name : constant_)
     report.warn("no_variogram", {{"field", name}});
-  report.warnings.insert(
-      report.warnings.end(), total_sills_.begin(), total_sills_.end());
+  report.warn(total_sills_);
 }
 
 } // namespace pcl_uvol::detail

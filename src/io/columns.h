@@ -26,7 +26,11 @@ struct Column {
 class WriteProgress {
 public:
   WriteProgress(std::size_t count, const SaveOptions& options)
-      : report_{{}, {}, {}, options.progress}
+      : report_([&] {
+        Report report;
+        report.progress = options.progress;
+        return report;
+      }())
       , step_(report_, "write", count)
   {
   }

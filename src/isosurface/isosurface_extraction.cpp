@@ -52,10 +52,8 @@ IsosurfaceExtractionBase::updateSamples(const CloudView& cloud,
 {
   const Eigen::Array3f& scale = parameters_.scale;
   const std::uint64_t fingerprint = computeFingerprint(use);
-  if (samples_ && fingerprint == sampled_ && (scale == sampled_scale_).all()) {
-    report_.counts = sampled_report_.counts;
-    report_.warnings = sampled_report_.warnings;
-  }
+  if (samples_ && fingerprint == sampled_ && (scale == sampled_scale_).all())
+    report_.merge(sampled_report_);
   else {
     Report built;
     built.progress = report_.progress;
@@ -64,6 +62,7 @@ IsosurfaceExtractionBase::updateSamples(const CloudView& cloud,
     candidates_.reset();
     report_.merge(built);
     sampled_report_ = built;
+    sampled_report_.milliseconds.clear();
     sampled_ = fingerprint;
     sampled_scale_ = scale;
   }
@@ -112,8 +111,7 @@ IsosurfaceExtractionBase::updateScalar(const CloudView& cloud,
   if (scalar_ && scalar_->field == parameters_.field && scalar_->indices == chosen &&
       (scalar_->scale == parameters_.scale).all() &&
       scalar_->fingerprint == fingerprint.values) {
-    report_.counts = scalar_->read.counts;
-    report_.warnings = scalar_->read.warnings;
+    report_.merge(scalar_->read);
     return;
   }
   scalar_.reset(); // of other samples, should what follows fail
@@ -129,8 +127,8 @@ IsosurfaceExtractionBase::updateScalar(const CloudView& cloud,
   const std::uint64_t without_value = indices.size() - use.size();
   updateSamples(cloud, use);
   use = std::vector<std::uint32_t>(); // what follows takes its memory
-  report_.count("no_value", without_value);
-  report_.count("samples", samples_->size());
+  report_.countSamples("no_value", without_value);
+  report_.countSamples("samples", samples_->size());
 
   const StepTimer timer(report_, "ranges");
   auto scalar = std::make_shared<Scalar>();
@@ -141,8 +139,8 @@ IsosurfaceExtractionBase::updateScalar(const CloudView& cloud,
   scalar->frame = frame;
   scalar->samples = gatherValues(*samples_, values, threads_, report_);
   scalar->ranges = samples_->getTree().computeRanges(scalar->samples.values, threads_);
-  scalar->read.counts = report_.counts;
-  scalar->read.warnings = report_.warnings;
+  scalar->read.merge(report_);
+  scalar->read.milliseconds.clear();
   scalar_ = scalar;
 }
 

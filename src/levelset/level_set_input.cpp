@@ -136,8 +136,8 @@ readInput(const CloudView& cloud,
   LevelSetInput input;
   input.samples = SampleSet::build(
       cloud.xyz(0), cloud.stride(), use, toPosition(parameters.scale), threads, report);
-  report.count("no_value", indices.size() - use.size());
-  report.count("samples", input.samples->size());
+  report.countSamples("no_value", indices.size() - use.size());
+  report.countSamples("samples", input.samples->size());
   if (input.samples->size() <= parameters.k)
     throw InvalidArgument(
         "few_samples_for_stencil",

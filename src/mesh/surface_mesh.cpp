@@ -107,8 +107,8 @@ readSamples(const CloudView& cloud,
                                   threads,
                                   report,
                                   SplitRule::LongestSide);
-  report.count("no_value", indices.size() - use.size());
-  report.count("samples", read.samples->size());
+  report.countSamples("no_value", indices.size() - use.size());
+  report.countSamples("samples", read.samples->size());
   const StepTimer step(report, "ranges");
   read.values = gatherValues(*read.samples, values, threads, report);
   read.ranges = read.samples->getTree().computeRanges(read.values.values, threads);

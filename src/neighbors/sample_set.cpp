@@ -160,9 +160,9 @@ SampleSet::buildInUnit(const float* xyz,
   StepTimer step(report, "tree", use.size());
   Gathered gathered;
   SampleRecords records = gatherRecords(xyz, stride, use, unit, threads, gathered);
-  report.count("non_finite", gathered.non_finite);
+  report.countSamples("non_finite", gathered.non_finite);
   if (gathered.far_points.count > 0)
-    report.count("far_points", gathered.far_points.count);
+    report.countSamples("far_points", gathered.far_points.count);
   gathered.far_points.warn(report);
   if (records.empty())
     throw InvalidArgument("no_usable_sample", {{"samples", use.size()}});
@@ -179,7 +179,7 @@ SampleSet::buildInUnit(const float* xyz,
     set->merged_ = findMerged(duplicates, records);
     set->members_ = std::move(duplicates.members);
   }
-  report.count("duplicates", finite - records.size());
+  report.countSamples("duplicates", finite - records.size());
 
   parts.size = records.size();
   resizeLarge(parts.positions, records.size());

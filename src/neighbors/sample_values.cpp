@@ -72,7 +72,7 @@ gatherValues(const SampleSet& samples,
     scalar.values[merged.sample] = found.value;
     scalar.sources[merged.sample] = found.source;
   }
-  report.count("conflicting_duplicates", conflicting);
+  report.countSamples("conflicting_duplicates", conflicting);
   warnOfConflicts(conflicting, samples.size(), report);
   return scalar;
 }

@@ -8,37 +8,11 @@
 #include "pipeline/zero_level.h"
 #include <pcl_uvol/levelset/level_set_evolution.h>
 
-#include <algorithm>
 #include <limits>
-#include <string>
-#include <utility>
 
 namespace pcl_uvol {
 
 namespace {
-
-/** Merge the report of a stage on samples that an earlier stage has told of. */
-void
-mergeLater(Report& report, Report stage)
-{
-  const auto is_of_samples = [](const auto& count) {
-    const std::string& name = count.first;
-    return name == "samples" || name == "no_value" || name == "non_finite" ||
-           name == "duplicates" || name == "conflicting_duplicates";
-  };
-  stage.counts.erase(
-      std::remove_if(stage.counts.begin(), stage.counts.end(), is_of_samples),
-      stage.counts.end());
-  stage.warnings.erase(std::remove_if(stage.warnings.begin(),
-                                      stage.warnings.end(),
-                                      [&](const Message& warning) {
-                                        return std::count(report.warnings.begin(),
-                                                          report.warnings.end(),
-                                                          warning) > 0;
-                                      }),
-                       stage.warnings.end());
-  report.merge(stage);
-}
 
 /** Of samples as they are. */
 SurfaceTriangles
@@ -82,14 +56,6 @@ extractLevelSets(const PipelineInput& input,
   evolution.setScale(parameters.scale);
   evolution.setOutside(parameters.outside);
   SurfaceTriangles all;
-  bool is_first = true;
-  const auto tell = [&](const Report& stage) {
-    if (is_first)
-      report.merge(stage);
-    else
-      mergeLater(report, stage);
-    is_first = false;
-  };
   for (const double isovalue : parameters.isovalues) {
     evolution.setIsoValue(isovalue);
     IsosurfaceParameters of_isovalue = parameters;
@@ -101,14 +67,14 @@ extractLevelSets(const PipelineInput& input,
       evolution.evolve(phi);
       summaries.back() = evolution.getSummary();
       sampling = evolution.getSampling();
-      tell(evolution.getReport());
+      report.merge(evolution.getReport());
     }
     catch (const NoLevelSet&) {
       // Extraction says what is wrong with the isovalue, and goes on.
     }
     SurfaceTriangles found;
-    Report zero_level;
-    zero_level.progress = report.progress;
+    Report of_surface;
+    of_surface.progress = report.progress;
     if (summaries.back().smoothed) {
       // Among points at one position edges name only the one that phi was made from.
       std::vector<float> of_sources(phi.size(),
@@ -121,11 +87,13 @@ extractLevelSets(const PipelineInput& input,
                                of_isovalue,
                                input.parameters.mesh,
                                threads,
-                               zero_level);
+                               of_surface);
+      if (found.vertices.empty()) // the level set has told that it vanished
+        of_surface.warnings.clear();
     }
     else
-      found = extractPlain(input, of_isovalue, extraction, threads, zero_level);
-    tell(zero_level);
+      found = extractPlain(input, of_isovalue, extraction, threads, of_surface);
+    report.merge(of_surface);
     all.append(found);
   }
   return all;

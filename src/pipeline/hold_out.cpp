@@ -402,7 +402,7 @@ warnOfScores(const std::vector<ValidationScore>& scores,
     if (!lie_all_around)
       for (MessageValue& remedy : listRemedies(parameters))
         better.values.push_back(std::move(remedy));
-    report.warnings.push_back(std::move(better));
+    report.warn({std::move(better)});
   }
   if (const auto* const score = findWorst(scores, [](const ValidationScore& tested) {
         return tested.beyond_error < least_beyond_error

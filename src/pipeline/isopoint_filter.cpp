@@ -149,7 +149,7 @@ warnOfWeakSupport(const SupportCounts& counts,
                                                   sampling,
                                                   std::move(guess),
                                                   !(parameters.periodic > 0.0).all()))
-    report.warnings.push_back(*told);
+    report.warn({*told});
   if (4 * counts.thin > counts.known)
     report.warn("thin_parts", {{"percent", 100 * counts.thin / counts.known}});
 }

@@ -89,7 +89,7 @@ runLevelSet(const std::shared_ptr<const Dataset>& samples,
             describeWeakSupport(findSupportCounts(evolution.getTally()),
                                 result.sampling,
                                 {"unconstrained_level_set", {}}))
-      result.report.warnings.push_back(*guesses);
+      result.report.warn({*guesses});
   result.report.progress = nullptr; // which is the caller's
   return result;
 }

@@ -52,19 +52,6 @@ addDeviations(const std::vector<float>& deviations,
   }
 }
 
-/** Forgets what an extraction says of a phi without a zero level: the level set has
- * told that it vanished, with the isovalue that was asked for.
- * \param told warnings before the extraction */
-void
-forgetIfVanished(const pcl::PointCloud<PointIso>& isopoints,
-                 std::size_t told,
-                 Report& report)
-{
-  if (isopoints.empty())
-    report.warnings.erase(report.warnings.begin() + static_cast<std::ptrdiff_t>(told),
-                          report.warnings.end());
-}
-
 } // namespace
 
 SurfaceTriangles
@@ -80,7 +67,6 @@ extractZeroLevel(const CloudView& samples,
   IsosurfaceParameters of_phi = parameters;
   of_phi.field = "phi";
   of_phi.isovalues = {0.0};
-  const std::size_t told = report.warnings.size();
   SurfaceTriangles found;
   if (mesh) {
     const CloudView view = viewOf(cloud);
@@ -96,7 +82,6 @@ extractZeroLevel(const CloudView& samples,
     for (PointIso& point : found.vertices)
       point.isovalue = static_cast<float>(parameters.isovalues.front());
   }
-  forgetIfVanished(found.vertices, told, report);
   addDeviations(deviations, found.edges, parameters.scale, found.vertices);
   return found;
 }

@@ -416,6 +416,18 @@ TEST(Message, ReportsKeepThem)
   EXPECT_EQ(2.0, uvol_test::numberOf(report.warnings[1], "far_points"));
 }
 
+TEST(Message, ReportsKeepEachOnce)
+{
+  pcl_uvol::Report report, other;
+  for (pcl_uvol::Report* const one : {&report, &other, &other})
+    one->warn("far_points", {{"far_points", 2}});
+  other.warn("far_points", {{"far_points", 3}});
+  report.merge(other);
+  report.warn({Message("far_points", {{"far_points", 3}})});
+  EXPECT_EQ(2u, other.warnings.size());
+  EXPECT_EQ(2u, report.warnings.size());
+}
+
 TEST(MessageOfAnException, IsItsText)
 {
   const InvalidArgument error("derivatives_of_blocks", {{"field", "grad(f)"}});

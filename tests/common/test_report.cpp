@@ -12,6 +12,22 @@
 
 namespace test_report {
 
+TEST(Report, CountsSamplesOfSeveralStagesOnce)
+{
+  const auto report_of = [](std::uint64_t samples) {
+    pcl_uvol::Report stage;
+    stage.countSamples("samples", samples);
+    stage.countSamples("samples", 1); // two fields with samples of their own
+    stage.count("isopoints", 7);
+    return stage;
+  };
+  pcl_uvol::Report report;
+  report.merge(report_of(4));
+  report.merge(report_of(9));
+  EXPECT_EQ(5u, report.getCount("samples"));
+  EXPECT_EQ(14u, report.getCount("isopoints"));
+}
+
 TEST(Progress, RisesToOneAndIsToldOneAtATime)
 {
   pcl_uvol::Report report;

@@ -143,8 +143,7 @@ measureSurface(const std::shared_ptr<const pcl_uvol::Dataset>& vertices,
     report.setCount("intersections", figures.intersections.size());
   for (const auto& [step, milliseconds] : own.milliseconds)
     report.time(step, milliseconds);
-  report.warnings.insert(
-      report.warnings.end(), own.warnings.begin(), own.warnings.end());
+  report.warn(own.warnings);
   return figures;
 }
 

@@ -179,7 +179,7 @@ loadMesh(const std::string& path,
   const pcl_uvol::LoadOptions options = onMapOfCommand({});
   pcl_uvol::Dataset mesh = pcl_uvol::loadMesh(path, triangles, options.map);
   if (options.map) // says that the mesh was moved onto it
-    report.warnings.insert(report.warnings.end(), mesh.notes.begin(), mesh.notes.end());
+    report.warn(mesh.notes);
   keepMap(path, mesh, options, report);
   return mesh;
 }
@@ -195,8 +195,7 @@ loadPoints(const std::string& path,
   const pcl_uvol::StepTimer timer(report, "read");
   const pcl_uvol::LoadOptions on_map = onMapOfCommand(options);
   pcl_uvol::Dataset dataset = pcl_uvol::loadDataset(path, on_map);
-  report.warnings.insert(
-      report.warnings.end(), dataset.notes.begin(), dataset.notes.end());
+  report.warn(dataset.notes);
   keepMap(path, dataset, on_map, report);
   if (in_file)
     *in_file = dataset.cloud.width;
@@ -272,8 +271,7 @@ warnOfLosses(const std::string& path,
              const pcl_uvol::Dataset& dataset,
              pcl_uvol::Report& report)
 {
-  const auto losses = pcl_uvol::describeLosses(path, dataset);
-  report.warnings.insert(report.warnings.end(), losses.begin(), losses.end());
+  report.warn(pcl_uvol::describeLosses(path, dataset));
 }
 
 std::string

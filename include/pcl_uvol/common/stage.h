@@ -39,6 +39,13 @@ struct PCL_UVOL_EXPORTS Report {
   void
   count(const std::string& name, std::uint64_t value);
 
+  /** \brief Add to a count of the samples that a stage reads. Later stages read the
+   * same ones: merge() does not add theirs to it.
+   * \param name as of count()
+   * \param value what is added */
+  void
+  countSamples(const std::string& name, std::uint64_t value);
+
   /** \brief Make that the count of that name, whatever it was.
    * \param name as of count()
    * \param value the new count */
@@ -56,16 +63,24 @@ struct PCL_UVOL_EXPORTS Report {
   void
   time(const std::string& step, double milliseconds_spent);
 
-  /** \brief Append a warning.
+  /** \brief Append a warning, unless the report has it already.
    * \param code row of the table of messages
    * \param values all that the text of that row holds */
   void
   warn(std::string code, std::vector<MessageValue> values = {});
 
+  /** \brief The same of several.
+   * \param messages in the order in which they are appended */
+  void
+  warn(const std::vector<Message>& messages);
+
   /** \brief Append the counts, times and warnings of another stage.
    * \param other report of a stage that this one ran */
   void
   merge(const Report& other);
+
+private:
+  std::vector<std::string> of_samples_; ///< names of counts
 };
 
 /** \brief One step of a stage: the time from construction to destruction goes to the
