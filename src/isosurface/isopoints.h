@@ -23,6 +23,7 @@ struct IsopointInput {
   Outside outside;
   Interpolation interpolation;
   unsigned threads;
+  bool errors_only = false; ///< see IsosurfaceParameters
 };
 
 /** \brief An edge by sample indices, the lower one in the upper half: sorts by (lower,

@@ -176,7 +176,8 @@ IsosurfaceExtractionBase::extractFrom(const CloudView& cloud,
                             parameters_.criterion,
                             parameters_.outside,
                             parameters_.interpolation,
-                            threads_};
+                            threads_,
+                            parameters_.errors_only};
   pcl::PointCloud<PointIso> found;
   IsoEdges edges;
   for (const double isovalue : parameters_.isovalues) {

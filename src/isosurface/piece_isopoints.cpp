@@ -307,7 +307,7 @@ PieceIsopoints::giveRecords(const RecordSink& sink) const
  * the first. */
 void
 mergeIsopoints(std::vector<GlobalIsopoint>& isopoints,
-               Interpolation interpolation,
+               const IsosurfaceParameters& parameters,
                unsigned threads,
                SurfaceTally& tally,
                Report& report)
@@ -326,7 +326,7 @@ mergeIsopoints(std::vector<GlobalIsopoint>& isopoints,
     normals.push_back(isopoint.outside);
   }
   const auto stays = mergeCoincident(positions, normals, threads);
-  const bool smooth = interpolation != Interpolation::Linear;
+  const bool smooth = parameters.interpolation != Interpolation::Linear;
   std::vector<RootOutcome> outcomes;
   std::vector<std::uint8_t> supports;
   std::size_t kept = 0;
@@ -342,7 +342,7 @@ mergeIsopoints(std::vector<GlobalIsopoint>& isopoints,
   report.count("coincident", isopoints.size() - kept);
   isopoints.resize(kept);
   if (smooth)
-    countRoots(outcomes, supports, report);
+    countRoots(outcomes, supports, parameters.errors_only, report);
   const auto end = std::remove_if(isopoints.begin(),
                                   isopoints.end(),
                                   [](const auto& one) { return one.is_contradicted; });
@@ -446,7 +446,7 @@ IsosurfaceStage::receive(std::size_t list,
   std::vector<GlobalIsopoint>& isopoints = received_[list];
   isopoints.resize(count);
   read(isopoints.data());
-  mergeIsopoints(isopoints, parameters_.interpolation, threads, tally_, report);
+  mergeIsopoints(isopoints, parameters_, threads, tally_, report);
   report.count("isopoints", isopoints.size());
 }
 

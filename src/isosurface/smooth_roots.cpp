@@ -523,31 +523,20 @@ fitRoots(const IsopointInput& input,
 void
 countRoots(const std::vector<RootOutcome>& outcomes,
            const std::vector<std::uint8_t>& supports,
+           bool errors_only,
            Report& report)
 {
-  for (const auto& [name, outcome] : outcome_counts)
-    report.count(name,
-                 static_cast<std::uint64_t>(
-                     std::count(outcomes.begin(), outcomes.end(), outcome)));
+  if (!errors_only)
+    for (const auto& [name, outcome] : outcome_counts)
+      report.count(name,
+                   static_cast<std::uint64_t>(
+                       std::count(outcomes.begin(), outcomes.end(), outcome)));
   for (const auto& [name, support] :
        {std::pair("bridged", IsoSupport::Bridged), std::pair("rim", IsoSupport::Rim)})
     report.count(
         name,
         static_cast<std::uint64_t>(std::count(
             supports.begin(), supports.end(), static_cast<std::uint8_t>(support))));
-}
-
-void
-leaveOutRoots(Report& report)
-{
-  const auto counts_outcome = [](const auto& count) {
-    return std::any_of(std::begin(outcome_counts),
-                       std::end(outcome_counts),
-                       [&](const auto& other) { return count.first == other.first; });
-  };
-  report.counts.erase(
-      std::remove_if(report.counts.begin(), report.counts.end(), counts_outcome),
-      report.counts.end());
 }
 
 void
@@ -565,7 +554,7 @@ smoothIsopoints(const IsopointInput& input,
   supports.reserve(points.size());
   for (const PointIso& point : points)
     supports.push_back(point.support);
-  countRoots(outcomes, supports, report);
+  countRoots(outcomes, supports, input.errors_only, report);
 }
 
 } // namespace pcl_uvol

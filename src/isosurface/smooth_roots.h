@@ -43,16 +43,13 @@ fitRoots(const IsopointInput& input,
 
 /** \brief Count "cubic_roots", "quadratic_roots", "linear_singular", "linear_step",
  * "linear_far", "bridged" and "rim".
- * \param outcomes, supports one per point */
+ * \param outcomes, supports one per point
+ * \param errors_only leave out the outcomes, see IsosurfaceParameters */
 void
 countRoots(const std::vector<RootOutcome>& outcomes,
            const std::vector<std::uint8_t>& supports,
+           bool errors_only,
            Report& report);
-
-/** \brief Take the counts of outcomes out of a report: its isopoints have gone back to
- * their edges, and the fits only told their errors. */
-void
-leaveOutRoots(Report& report);
 
 /** \brief Move isopoints onto fits through their nearest samples.
  * \param edges of the points, sorted by sample indices

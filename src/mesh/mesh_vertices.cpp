@@ -93,7 +93,7 @@ public:
       outcomes.push_back(fit.outcome);
     for (const PointIso& point : fitted)
       supports.push_back(point.support);
-    countRoots(outcomes, supports, report);
+    countRoots(outcomes, supports, input_.errors_only, report);
     for (std::size_t i = 0; i < vertices.size(); ++i)
       points[vertices[i]] = fitted[i];
     settle(vertices);

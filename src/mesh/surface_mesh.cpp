@@ -192,7 +192,8 @@ makeSurfaceMesh(const CloudView& cloud,
                             isosurface.criterion,
                             isosurface.outside,
                             isosurface.interpolation,
-                            threads};
+                            threads,
+                            isosurface.errors_only};
   const NodeRanges::Range range = read.ranges[read.samples->getTree().getRoot()];
   SurfaceTriangles all;
   for (std::size_t i = 0; i < isosurface.isovalues.size(); ++i) {

@@ -2,7 +2,6 @@
 #include "pipeline/isopoint_choice.h"
 
 #include "common/parallel.h"
-#include "isosurface/smooth_roots.h"
 #include "pipeline/edge_errors.h"
 #include "pipeline/isopoint_search.h"
 #include "pipeline/stretched_edges.h"
@@ -211,7 +210,9 @@ withErrors(const IsosurfacePipelineParameters& parameters)
   IsosurfaceParameters extraction = parameters.isosurface;
   const bool needs_fits = parameters.max_error || parameters.automatic_max_error ||
                           parameters.drop_bridged || parameters.fill_gaps;
-  if (needs_fits && extraction.interpolation == Interpolation::Linear)
+  extraction.errors_only =
+      needs_fits && extraction.interpolation == Interpolation::Linear;
+  if (extraction.errors_only)
     extraction.interpolation = Interpolation::Fit;
   return extraction;
 }
@@ -343,20 +344,15 @@ chooseIsopoints(const CloudView& samples,
                 Report& report)
 {
   StepTimer step(report, "normals", isopoints.size());
-  const Interpolation interpolation = parameters.isosurface.interpolation;
   IsopointChoice choice;
   // Samples whose field made the isopoints are needed only where these may go back.
-  const bool all_return = interpolation == Interpolation::Linear &&
-                          withErrors(parameters).interpolation != Interpolation::Linear;
+  const bool all_return = withErrors(parameters).errors_only;
   std::optional<StretchedEdges> stretched;
   if (all_return || returnsToEdges(parameters))
     stretched.emplace(samples, edges, parameters.isosurface);
-  if (all_return) {
-    for (std::size_t i = 0; i < isopoints.size(); ++i)
-      if (!isSupport(isopoints[i], IsoSupport::Unknown))
-        returnToEdge(*stretched, edges[i].t, i, isopoints[i]);
-    leaveOutRoots(report);
-  }
+  for (std::size_t i = 0; all_return && i < isopoints.size(); ++i)
+    if (!isSupport(isopoints[i], IsoSupport::Unknown))
+      returnToEdge(*stretched, edges[i].t, i, isopoints[i]);
   for (const PointIso& point : isopoints)
     choice.method.push_back(hasFit(point) ? IsoMethod::Fit : IsoMethod::Linear);
   choice.orientation.resize(isopoints.size());

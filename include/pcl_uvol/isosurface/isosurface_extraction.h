@@ -70,6 +70,9 @@ struct PCL_UVOL_EXPORTS IsosurfaceParameters {
   std::vector<double> isovalues;
   Outside outside = Outside::Lower;
   Interpolation interpolation = Interpolation::Fit;
+  /** Fits only give errors, and their isopoints go back to the edges:
+   * IsosurfacePipeline sets it. What kinds of fits there are is then not counted. */
+  bool errors_only = false;
   /** Where neighbours are looked for: in the kd-tree (thesis 2.2), which is faster and
    * never sees more than some tens, in a discrete Voronoi diagram (2.1), or in exact
    * cells. */
