@@ -4,6 +4,7 @@
 #include "common/numbers.h"
 #include "common/printable.h"
 #include "common/records.h"
+#include "common/sample_checks.h"
 #include "common/scalar_field.h"
 #include "pipeline/dataset_info.h"
 #include "shared/options.h"
@@ -139,7 +140,7 @@ chosenField(const Arguments& arguments, const pcl_uvol::Dataset& dataset)
   if (!arguments.field.empty())
     return arguments.field;
   try {
-    return pcl_uvol::ScalarField::defaultName(pcl_uvol::listNumberFields(dataset));
+    return pcl_uvol::chooseField(dataset, "");
   }
   catch (const pcl_uvol::InvalidArgument&) {
     return {}; // none, or several: the list of ranges tells

@@ -2,6 +2,8 @@
 #include "common/sample_checks.h"
 
 #include "common/printable.h"
+#include "common/records.h"
+#include "common/scalar_field.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>
@@ -14,6 +16,15 @@ refuseNames(const Dataset& samples, const std::string& field)
 {
   if (samples.labels.count(field) > 0)
     throw InvalidArgument("field_of_names", {{"field", shortenText(field)}});
+}
+
+std::string
+chooseField(const Dataset& samples, const std::string& named)
+{
+  if (named.empty())
+    return ScalarField::defaultName(listNumberFields(samples));
+  refuseNames(samples, named);
+  return named;
 }
 
 void

@@ -16,6 +16,19 @@ namespace pcl_uvol {
 PCL_UVOL_EXPORTS void
 refuseNames(const Dataset& samples, const std::string& field);
 
+/** \brief The field that a stage takes of samples.
+ *
+ * That is the named one. Without a name it is `intensity`, or else the only scalar
+ * field. Coordinates, normals, colours, `curvature` and names (strings) are never
+ * taken, and neither are fields of several components.
+ *
+ * \param named by the user; empty: none is named
+ *
+ * \throws InvalidArgument for a column of names, and without a name if there is no
+ * scalar field or if there are several */
+PCL_UVOL_EXPORTS std::string
+chooseField(const Dataset& samples, const std::string& named);
+
 /** \brief Warn where more than a few of the places of samples have several values, as
  * those of repeated experiments do.
  * \param conflicting values that are the median of different ones

@@ -35,8 +35,7 @@ public:
   ScalarField(const std::vector<pcl::PCLPointField>& fields,
               const std::string& expression);
 
-  /** \brief The field a user means who names none: `intensity`, else the only
-   * candidate. Coordinates, normals, colours and padding are no candidates.
+  /** \brief As chooseField() without a name, for a cloud whose fields are all numbers.
    * \throws InvalidArgument that lists the candidates */
   static std::string
   defaultName(const std::vector<pcl::PCLPointField>& fields);

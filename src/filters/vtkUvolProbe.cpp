@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "common/records.h"
 #include "common/scalar_names.h"
 #include "filters/cell_locator.h"
 #include "filters/filter_run.h"
@@ -226,7 +227,8 @@ vtkUvolProbe::ReadSource(vtkDataSet& source, Report& report)
   read->made.warnings = read->dataset.notes;
   read->made.progress = report.progress;
   if (parameters.fields.empty())
-    parameters.fields = pcl_uvol::listScalars(read->dataset.cloud.fields);
+    parameters.fields =
+        pcl_uvol::listScalars(pcl_uvol::listNumberFields(read->dataset));
   const pcl_uvol::CloudView view = pcl_uvol::viewOf(read->dataset.cloud);
   read->interpolator = std::make_unique<pcl_uvol::detail::FieldInterpolator>(
       view,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/records.h"
+#include "common/sample_checks.h"
 #include "common/scalar_field.h"
 #include "common/stretch_axes.h"
 #include "distributed/fetch_points.h"
@@ -64,7 +65,8 @@ public:
   {
     checkDistributed(parameters);
     parameters.normals = NormalMethod::Edge; // of isopoints that have none yet
-    findField(*given_, parameters);
+    std::string& field = parameters.isosurface.field;
+    field = chooseField(*given_, field);
     warnOfUnusedBox(*given_, sidesOf(parameters), report);
     // Isopoints around one may belong to other processes: none is put back to its edge,
     // and the extraction leaves out contradicted ones.

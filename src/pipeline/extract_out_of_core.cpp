@@ -2,6 +2,7 @@
 #include "pipeline/extract_out_of_core.h"
 
 #include "common/memory.h"
+#include "common/sample_checks.h"
 #include "common/scalar_field.h"
 #include "common/stretch_axes.h"
 #include "isosurface/edge_ends.h"
@@ -144,7 +145,8 @@ public:
         detail::StretchAxes(parameters.rotation).areTurned() ||
         parameters.isosurface.neighbors != NeighborSource::KdTree)
       throw InvalidArgument("not_out_of_core", {});
-    findField(points_.getHeader(), parameters);
+    std::string& field = parameters.isosurface.field;
+    field = chooseField(points_.getHeader(), field);
     warnOfUnusedBox(points_.getHeader(), sidesOf(parameters), report);
   }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/memory.h"
+#include "common/sample_checks.h"
 #include "interpolation/outer_layer.h"
 #include "pipeline/extract_surface.h"
 #include "pipeline/gap_filling.h"
@@ -13,6 +14,7 @@
 
 #include <memory>
 #include <numeric>
+#include <string>
 #include <utility>
 
 namespace pcl_uvol {
@@ -27,13 +29,14 @@ resolve(const PipelineInput& input,
         std::optional<ScaleChoice>& choice)
 {
   IsosurfacePipelineParameters parameters = input.parameters;
-  findField(*input.samples, parameters);
+  std::string& field = parameters.isosurface.field;
+  field = chooseField(*input.samples, field);
   if (!parameters.takesAutomaticScale())
     return parameters.isosurface;
   Report own;
   choice = chooseScale(viewOf(input.samples->cloud),
                        listPoints(input),
-                       parameters.isosurface.field,
+                       field,
                        parameters.rotation,
                        threads,
                        own);
@@ -51,14 +54,11 @@ closeOutside(PipelineInput& input, unsigned threads, Report& report)
   parameters.isosurface.interpolation = parameters.takenInterpolation();
   if (parameters.isosurface.interpolation != Interpolation::Linear)
     report.warn("fits_oscillate");
-  findField(*input.samples, parameters);
+  std::string& field = parameters.isosurface.field;
+  field = chooseField(*input.samples, field);
   const auto closed = std::make_shared<Dataset>(*input.samples);
-  addOuterLayer(*closed,
-                input.use.get(),
-                parameters.isosurface.field,
-                *parameters.outside_value,
-                threads,
-                report);
+  addOuterLayer(
+      *closed, input.use.get(), field, *parameters.outside_value, threads, report);
   if (input.use) {
     const std::size_t given = input.use->size();
     input.use = pcl::make_shared<pcl::Indices>(*input.use);

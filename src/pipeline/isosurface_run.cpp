@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/isosurface_run.h"
 
-#include "common/records.h"
 #include "common/sample_checks.h"
-#include "common/scalar_field.h"
 #include "pipeline/finish_isosurface.h"
 #include <pcl_uvol/common/map_projection.h>
 
 #include <cstdint>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -37,15 +34,6 @@ runIsosurface(SampleStore& store,
   store.leave(entered, result);
   setGlobeFields(result.surface);
   return result;
-}
-
-void
-findField(const Dataset& samples, IsosurfacePipelineParameters& parameters)
-{
-  std::string& field = parameters.isosurface.field;
-  if (field.empty())
-    field = ScalarField::defaultName(listNumberFields(samples));
-  refuseNames(samples, field);
 }
 
 void

@@ -63,12 +63,6 @@ runIsosurface(SampleStore& store,
               unsigned threads,
               Report&& report);
 
-/** \brief Fill in a field that is not named.
- * \throws InvalidArgument where the samples do not tell which one is meant, and for a
- * field of names */
-void
-findField(const Dataset& samples, IsosurfacePipelineParameters& parameters);
-
 /** \brief Warn of samples at one place whose values differ, of all processes together.
  * By all of them. */
 void

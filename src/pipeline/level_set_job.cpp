@@ -37,10 +37,8 @@ runLevelSet(const std::shared_ptr<const Dataset>& samples,
   result.report.progress = progress;
   LevelSetParameters& taken = result.taken;
   taken = request.level_set;
-  if (taken.field.empty())
-    taken.field = ScalarField::defaultName(listNumberFields(*samples));
-  for (const std::string& field : {taken.field, taken.initial.field_name})
-    refuseNames(*samples, field);
+  taken.field = chooseField(*samples, taken.field);
+  refuseNames(*samples, taken.initial.field_name);
   if (request.automatic_scale) {
     result.scale_choice = chooseScale(viewOf(samples->cloud),
                                       listPoints({samples, use, {}}),

@@ -186,8 +186,7 @@ InterpolationOptions::resolve(const Options& options,
   const auto& fields = samples.cloud.fields;
   InterpolationParameters parameters = parameters_;
   if (fields_.empty())
-    parameters.fields = {
-        pcl_uvol::ScalarField::defaultName(pcl_uvol::listNumberFields(samples))};
+    parameters.fields = {pcl_uvol::chooseField(samples, "")};
   else if (fields_ == "all" && pcl_uvol::findField(fields, "all") == nullptr)
     parameters.fields = pcl_uvol::listScalars(pcl_uvol::listNumberFields(samples));
   else

@@ -171,18 +171,12 @@ withOuterLayer(const DatasetPtr& dataset,
                unsigned threads,
                const py::object& progress)
 {
-  refuseNames(*dataset, field);
+  const std::string taken = chooseField(*dataset, field);
   auto result = std::make_shared<Dataset>(*dataset);
   Report report;
   runInterruptibly(progress, [&](const ProgressCallback& callback) {
     report.progress = callback;
-    addOuterLayer(*result,
-                  nullptr,
-                  field.empty() ? ScalarField::defaultName(listNumberFields(*dataset))
-                                : field,
-                  value,
-                  threads,
-                  report);
+    addOuterLayer(*result, nullptr, taken, value, threads, report);
   });
   return py::make_tuple(result, toDict(report));
 }

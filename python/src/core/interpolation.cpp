@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Fields between the samples: a model that answers queries, and the places of lines,
 // slices and grids.
+#include "common/sample_checks.h"
 #include "core/bindings.h"
 #include "core/large_memory.h"
 #include "interpolation/answer_summary.h"
@@ -67,6 +68,9 @@ public:
   {
     std::iota(indices_.begin(), indices_.end(), 0);
     std::iota(own_.begin(), own_.end(), 0);
+    warnOfUnusedBox(*samples, sides, report_);
+    if (parameters_.fields.empty())
+      parameters_.fields = {chooseField(*samples, "")};
     runInterruptibly(progress, [&](const ProgressCallback& callback) {
       report_.progress = callback;
       if (parameters_.model == InterpolationModel::Auto)

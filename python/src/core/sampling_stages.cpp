@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What samples are like: statistics, spacings, and the nearest of them by Voronoi
 // diagrams.
+#include "common/sample_checks.h"
 #include "common/scalar_field.h"
 #include "core/bindings.h"
 #include "core/run_stage.h"
@@ -148,15 +149,13 @@ chooseFieldScale(const Dataset& dataset,
   Report own;
   pcl::Indices all(dataset.cloud.width);
   std::iota(all.begin(), all.end(), 0);
-  const Eigen::Array3f scale =
-      chooseScale(viewOf(dataset.cloud),
-                  all,
-                  field.empty() ? ScalarField::defaultName(dataset.cloud.fields)
-                                : field,
-                  Eigen::Array3d(rotation.data()),
-                  threads,
-                  own)
-          .scale;
+  const Eigen::Array3f scale = chooseScale(viewOf(dataset.cloud),
+                                           all,
+                                           chooseField(dataset, field),
+                                           Eigen::Array3d(rotation.data()),
+                                           threads,
+                                           own)
+                                   .scale;
   return {scale[0], scale[1], scale[2]};
 }
 
