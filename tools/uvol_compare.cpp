@@ -49,13 +49,6 @@ loadSurface(const std::string& path, Report& report)
   return surface;
 }
 
-SurfaceDistances
-measure(const Surface& from, const Surface& to, unsigned threads)
-{
-  return pcl_uvol::detail::measureDistances(
-      {from.vertices, from.triangles}, {to.vertices, to.triangles}, threads);
-}
-
 /** The distances one way.
  * \param name as in "a to b" */
 void
@@ -88,14 +81,6 @@ describe(const SurfaceDistances& distances, const std::string& name, Facts& fact
         Fact::Members{{"mean", {field.mean}}, {"largest", {field.largest}}});
   }
   facts.emplace_back("fields " + name, fields);
-}
-
-/** Warns where the distance is to points, which lie apart. */
-void
-warnOfPoints(const Surface& surface, const std::string& path, Report& report)
-{
-  if (surface.triangles.empty())
-    report.warn("no_triangles", {{"surface", "'" + path + "'"}});
 }
 
 void
@@ -133,15 +118,13 @@ run(int argc, char** argv)
   else if (!output.empty())
     pcl_uvol::checkMeshPath(output);
   const Surface b = loadSurface(second, report);
-  warnOfPoints(a, first, report);
-  warnOfPoints(b, second, report);
   Facts facts = {{"a", first}, {"b", second}};
-  SurfaceDistances there, back;
-  {
-    const pcl_uvol::StepTimer timer(report, "distances");
-    there = measure(a, b, options.threads());
-    back = measure(b, a, options.threads());
-  }
+  const auto [there, back] =
+      pcl_uvol::detail::compareSurfaces({a.vertices, a.triangles},
+                                        {b.vertices, b.triangles},
+                                        {"'" + first + "'", "'" + second + "'"},
+                                        options.threads(),
+                                        report);
   warnOfManyFields(there, report);
   describe(there, "a to b", facts);
   describe(back, "b to a", facts);

@@ -1,49 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Normals of a surface given as points (thesis 4.1).
-#include "common/records.h"
-#include "common/scalar_field.h"
 #include "shared/point_job.h"
 #include "shared/scale_option.h"
+#include "surface/dataset_normals.h"
 #include "surface/memory_need.h"
-#include <pcl_uvol/common/cloud_view.h>
-#include <pcl_uvol/io/dataset.h>
-#include <pcl_uvol/isosurface/isosurface_extraction.h>
-#include <pcl_uvol/surface/surface_normals.h>
 
-#include <pcl/conversions.h>
-
-#include <numeric>
+#include <algorithm>
 
 namespace {
-
-using pcl_uvol::IsoEdge;
-using pcl_uvol::Report;
-
-/** The cloud with new normals and curvature; all other fields as they were. */
-pcl::PCLPointCloud2
-estimateNormals(const pcl::PCLPointCloud2& cloud,
-                const pcl_uvol::SurfaceNormalParameters& parameters,
-                unsigned threads,
-                Report& report)
-{
-  pcl_uvol::SurfaceNormalEstimation<pcl::PCLPointCloud2, pcl::PointNormal> estimation;
-  estimation.setInputCloud(pcl::PCLPointCloud2::ConstPtr(&cloud, [](const void*) {}));
-  estimation.setParameters(parameters);
-  estimation.setNumberOfThreads(threads);
-  estimation.setProgressCallback(report.progress);
-  pcl::PointCloud<pcl::PointNormal> points;
-  estimation.compute(points);
-  report.merge(estimation.getReport());
-  const pcl_uvol::CloudView view = pcl_uvol::viewOf(cloud);
-  for (std::size_t i = 0; i < points.size(); ++i)
-    points[i].getVector3fMap() = Eigen::Vector3f(view.xyz(i));
-  std::vector<std::uint32_t> all(points.size());
-  std::iota(all.begin(), all.end(), 0u);
-  pcl::PCLPointCloud2 result;
-  pcl::toPCLPointCloud2(points, result);
-  pcl_uvol::copyFields(cloud, all, result, threads);
-  return result;
-}
 
 /** What the tool holds beside the points: while it estimates, then a cloud of normals,
  * the same as bytes, and the output. */
@@ -92,18 +56,10 @@ run(int argc, char** argv)
   uvol_tools::append(job.facts, of_scale);
   parameters.scale = stretch.scale;
   parameters.rotation = stretch.rotation;
-  if (view_point.empty())
-    view_point.assign(3, 0.0);
-  parameters.view_point =
-      (Eigen::Array3d(view_point.data()) - Eigen::Array3d(dataset.origin.data()))
-          .cast<float>();
-  if (pcl_uvol::findField(dataset.cloud.fields, "normal_x") == nullptr &&
-      !options.given("viewpoint"))
-    job.report.warn("oriented_to_zero");
-
-  pcl_uvol::Dataset result = pcl_uvol::withoutCloud(dataset);
-  result.cloud =
-      estimateNormals(dataset.cloud, parameters, options.threads(), job.report);
+  if (!view_point.empty())
+    parameters.view_point = Eigen::Array3d(view_point.data());
+  const pcl_uvol::Dataset result =
+      pcl_uvol::estimateNormals(dataset, parameters, options.threads(), job.report);
   return job.finish(result);
 }
 

@@ -316,8 +316,7 @@ def compare(a, b, *, threads=0, progress=None):
     (first, first_triangles), (second, second_triangles) = _parts(a, "a"), _parts(b, "b")
     second = second._on_map_of(first)
     with listening(progress) as listener:
-        forth, back, surface = _core.compare(first._dataset, first_triangles, second._dataset, second_triangles,
-                                             _parameters.count(threads, "threads"), listener)
-    _report.tell([_report.message("no_triangles", surface=name)
-                  for name, triangles in (("a", first_triangles), ("b", second_triangles)) if len(triangles) == 0])
+        forth, back, surface, warnings = _core.compare(first._dataset, first_triangles, second._dataset,
+                                                       second_triangles, _parameters.count(threads, "threads"), listener)
+    _report.tell(warnings)
     return Comparison(Distances(forth), Distances(back), Samples._of(surface))

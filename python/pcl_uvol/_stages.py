@@ -78,15 +78,14 @@ def level_set(points, fields=None, *, iso, field="", scale=(1.0, 1.0, 1.0), rota
                       scale=[1.0, 1.0, 1.0] if by_field else stretch.resolve(samples._dataset))
     dataset, found, report, taken = _run(_core.evolve_level_set, samples, parameters, threads, progress,
                                          _parameters.count(snapshots, "snapshots"), sides, by_field)
-    result = Samples._of(dataset, report, dict(taken, field=report["field"], snapshots=snapshots, periodic=sides))
+    result = Samples._of(dataset, report, dict(taken, snapshots=snapshots, periodic=sides))
     result.snapshots = [(steps, Samples._of(surface)) for steps, surface in found]
     return result
 
 
 @_parameters.with_proposals
 @described(_core.describe_normals())
-def normals(points, fields=None, *, scale=(1.0, 1.0, 1.0), rotate=None, view_point=(0.0, 0.0, 0.0), threads=0,
-            progress=None, **parameters):
+def normals(points, fields=None, *, scale=(1.0, 1.0, 1.0), rotate=None, view_point=None, threads=0, progress=None, **parameters):
     """Estimate normals of a surface given as points (thesis 4.1). Normals that the points have (fields
     normal_x, normal_y, normal_z) orient the new ones.
 
@@ -96,7 +95,7 @@ def normals(points, fields=None, *, scale=(1.0, 1.0, 1.0), rotate=None, view_poi
     {parameters}
     {scale, rotate of info}
     view_point : array_like, shape (3,)
-        Normals of points without a normal point to this position.
+        Normals of points without a normal point to this position. None: to 0, 0, 0, with a warning.
     {threads, progress}
 
     Returns
@@ -109,15 +108,15 @@ def normals(points, fields=None, *, scale=(1.0, 1.0, 1.0), rotate=None, view_poi
     --------
     >>> directions = np.random.default_rng(1).standard_normal((2000, 3))
     >>> ball = uvol.Samples(directions / np.linalg.norm(directions, axis=1)[:, None])
-    >>> found = uvol.normals(ball, k=12)
+    >>> found = uvol.normals(ball, k=12, view_point=(0, 0, 0))
     >>> normals = np.stack([found[f"normal_{axis}"] for axis in "xyz"], axis=1)
-    >>> bool((np.sum(normals * ball.points, axis=1) < -0.95).all())  # to the middle, the view point
+    >>> bool((np.sum(normals * ball.points, axis=1) < -0.95).all())
     True
     """
     samples = as_samples(points, fields)
     stretch = _parameters.Stretch(scale, rotate)
     parameters.update(scale=stretch.resolve(samples._dataset), rotation=stretch.rotation,
-                      view_point=_parameters.numbers(view_point, "view_point"))
+                      view_point=None if view_point is None else _parameters.numbers(view_point, "view_point"))
     return Samples._of(*_run(_core.estimate_normals, samples, parameters, threads, progress))
 
 

@@ -134,8 +134,9 @@ class Surface(Drawable, Points):
                                                                     drop_unsure=drop_unsure)
 
     def _comments(self):
-        isovalues = ",".join(f"{value:g}" for value in self.report["isovalues"])
-        return [f"isosurface of {self.report['field']} at {isovalues}"]
+        taken = self.parameters["isosurface"]
+        isovalues = ",".join(f"{value:g}" for value in taken["isovalues"])
+        return [f"isosurface of {taken['field']} at {isovalues}"]
 
     def __getstate__(self):
         state = super().__getstate__()
@@ -143,8 +144,9 @@ class Surface(Drawable, Points):
         return state
 
     def _describe(self):
-        values = ", ".join(f"{value:g}" for value in self.report["isovalues"])
-        return f"{type(self).__name__} of {self.report['field']} at {values}: {len(self)} points"
+        taken = self.parameters["isosurface"]
+        values = ", ".join(f"{value:g}" for value in taken["isovalues"])
+        return f"{type(self).__name__} of {taken['field']} at {values}: {len(self)} points"
 
     def __repr__(self):
         return self._describe()
@@ -379,9 +381,7 @@ def _extract(extractor, samples, parameters, threads, progress):
     with listening(progress) as listener:
         dataset, triangles, report = extractor.extract(samples._dataset, _parameters.to_json(parameters),
                                                        _parameters.count(threads, "threads"), listener)
-    report["isovalues"] = parameters["isosurface"]["isovalues"]
     taken = _parameters.take(report)
-    taken["isosurface"]["field"] = report["field"]
     if taken["mesh"] is None:
         surface = Surface(dataset, report, taken, samples)
     else:

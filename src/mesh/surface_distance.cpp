@@ -251,4 +251,20 @@ measureDistances(const ComparedSurface& from,
   return result;
 }
 
+SurfaceComparison
+compareSurfaces(const ComparedSurface& first,
+                const ComparedSurface& second,
+                const std::array<std::string, 2>& names,
+                unsigned threads,
+                Report& report)
+{
+  if (first.triangles.empty())
+    report.warn("no_triangles", {{"surface", names[0]}});
+  if (second.triangles.empty())
+    report.warn("no_triangles", {{"surface", names[1]}});
+  const StepTimer timer(report, "distances");
+  return {measureDistances(first, second, threads, report.progress),
+          measureDistances(second, first, threads, report.progress)};
+}
+
 } // namespace pcl_uvol::detail

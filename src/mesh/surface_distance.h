@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -47,5 +48,23 @@ measureDistances(const ComparedSurface& from,
                  const ComparedSurface& to,
                  unsigned threads,
                  const ProgressCallback& progress = nullptr);
+
+/** \brief Distances between two surfaces both ways. */
+struct SurfaceComparison {
+  SurfaceDistances there; ///< from the first one to the second one
+  SurfaceDistances back;
+};
+
+/** \brief Measure the distances between two surfaces.
+ * \param names of both, for warnings
+ * \param report gets the time of "distances", and a warning for each surface without
+ * triangles: distances to its points are limited by their spacing
+ * \throws InvalidArgument as measureDistances() */
+PCL_UVOL_EXPORTS SurfaceComparison
+compareSurfaces(const ComparedSurface& first,
+                const ComparedSurface& second,
+                const std::array<std::string, 2>& names,
+                unsigned threads,
+                Report& report);
 
 } // namespace pcl_uvol::detail

@@ -2,7 +2,6 @@
 #include "surface/oriented_points.h"
 
 #include "common/parallel.h"
-#include "common/report_parts.h"
 #include "common/scalar_field.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/point_types.h>
@@ -82,18 +81,23 @@ estimateNormals(const CloudView& cloud,
   const StepTimer timer(report, "normals");
   Report estimation;
   estimation.progress = report.progress;
-  const auto estimated =
-      detail::estimateSurfaceNormals(cloud, use, {}, nullptr, threads, estimation);
-  addCounts(estimation, {"far_points"}, report);
-  report.warnings.insert(
-      report.warnings.end(), estimation.warnings.begin(), estimation.warnings.end());
+  SurfaceNormalParameters parameters;
+  parameters.view_point = Eigen::Array3d::Zero(); // no side has a meaning here
+  const auto estimated = detail::estimateSurfaceNormals(
+      cloud, use, parameters, nullptr, threads, estimation);
+  report.warn(estimation.warnings);
   Normals normals;
   normals.packed.resize(cloud.count);
-  for (std::size_t i = 0; i < use.size(); ++i)
-    if (isUsable(estimated[i].normal)) {
-      normals.packed[use[i]] = packNormal(estimated[i].normal);
-      normals.use.push_back(use[i]);
-    }
+  std::uint64_t far_points = 0;
+  for (std::size_t i = 0; i < use.size(); ++i) {
+    far_points += std::isnan(estimated[i].normal[0]);
+    if (!isUsable(estimated[i].normal))
+      continue;
+    normals.packed[use[i]] = packNormal(estimated[i].normal);
+    normals.use.push_back(use[i]);
+  }
+  if (far_points > 0)
+    report.countSamples("far_points", far_points);
   return normals;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/memory.h"
 #include "common/parallel.h"
-#include "common/report_parts.h"
 #include "common/scalar_field.h"
 #include "common/stretch_axes.h"
 #include "neighbors/nearest_neighbors.h"
@@ -15,6 +14,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace pcl_uvol {
 
@@ -31,6 +31,7 @@ constexpr float clear_side = 0.3f;
  * below it the sample is more likely to look the wrong way than to lie on a sheet of
  * its own. */
 constexpr double least_share = 0.25;
+const Eigen::Array3d no_view_point = Eigen::Array3d::Zero();
 constexpr std::uint32_t no_sample = std::numeric_limits<std::uint32_t>::max();
 
 /** Fit of a sample in the stretched space. */
@@ -226,17 +227,19 @@ orient(const Fit& fit,
   return {{normal[0], normal[1], normal[2]}, fit.curvature};
 }
 
-} // namespace
+/** Normals, and how many of them are outside vectors. */
+struct FoundNormals {
+  std::vector<SurfaceNormal> normals;
+  std::uint64_t degenerate;
+};
 
-namespace detail {
-
-std::vector<SurfaceNormal>
-estimateSurfaceNormals(const CloudView& input,
-                       const std::vector<std::uint32_t>& indices,
-                       const SurfaceNormalParameters& parameters,
-                       const pcl::search::Search<pcl::PointXYZ>::Ptr& search,
-                       unsigned threads,
-                       Report& report)
+FoundNormals
+findNormals(const CloudView& input,
+            const std::vector<std::uint32_t>& indices,
+            const SurfaceNormalParameters& parameters,
+            const pcl::search::Search<pcl::PointXYZ>::Ptr& search,
+            unsigned threads,
+            Report& report)
 {
   checkParameters(parameters);
   if (indices.empty())
@@ -246,7 +249,7 @@ estimateSurfaceNormals(const CloudView& input,
                 surfaceNormalsBytes(static_cast<double>(indices.size()),
                                     static_cast<double>(parameters.k)));
   const Eigen::Array3f& scale = parameters.scale;
-  const StretchAxes axes(parameters.rotation);
+  const detail::StretchAxes axes(parameters.rotation);
   const CloudView cloud = axes.turn(input);
   const Eigen::Matrix3f rows = axes.getRows().cast<float>();
   const auto samples = SampleSet::build(cloud.xyz(0),
@@ -259,7 +262,9 @@ estimateSurfaceNormals(const CloudView& input,
       findNeighbors(*samples, parameters.k, search, threads, report);
   StepTimer step(report, "normals", samples->size() + indices.size());
   const Orientation orientation(
-      cloud, rows * parameters.view_point.matrix(), samples->getUnit().factor);
+      cloud,
+      rows * parameters.view_point.value_or(no_view_point).cast<float>().matrix(),
+      samples->getUnit().factor);
   const std::vector<Eigen::Vector3f> sides =
       collectSides(*samples, orientation, threads);
   std::vector<Fit> fits(samples->size());
@@ -295,8 +300,34 @@ estimateSurfaceNormals(const CloudView& input,
     }
     step.advance(end - begin);
   });
-  report.count("degenerate_normals", degenerate);
-  return normals;
+  return {std::move(normals), degenerate};
+}
+
+} // namespace
+
+namespace detail {
+
+void
+warnOfUnsetViewPoint(const CloudView& cloud,
+                     const SurfaceNormalParameters& parameters,
+                     Report& report)
+{
+  if (!parameters.view_point && findField(cloud.fields, "normal_x") == nullptr)
+    report.warn("oriented_to_zero");
+}
+
+std::vector<SurfaceNormal>
+estimateSurfaceNormals(const CloudView& cloud,
+                       const std::vector<std::uint32_t>& indices,
+                       const SurfaceNormalParameters& parameters,
+                       const pcl::search::Search<pcl::PointXYZ>::Ptr& search,
+                       unsigned threads,
+                       Report& report)
+{
+  FoundNormals found = findNormals(cloud, indices, parameters, search, threads, report);
+  report.count("degenerate_normals", found.degenerate);
+  warnOfUnsetViewPoint(cloud, parameters, report);
+  return std::move(found.normals);
 }
 
 void
@@ -315,11 +346,12 @@ replaceNormals(pcl::PointCloud<PointIso>& isopoints,
     std::iota(surface.begin(), surface.end(), static_cast<std::uint32_t>(begin));
     Report own;
     own.progress = report.progress;
-    const auto normals =
-        estimateSurfaceNormals(cloud, surface, parameters, nullptr, threads, own);
-    for (std::size_t i = 0; i < normals.size(); ++i)
-      isopoints[begin + i].getNormalVector3fMap() = Eigen::Vector3f(normals[i].normal);
-    addCounts(own, {"degenerate_normals"}, report);
+    const FoundNormals found =
+        findNormals(cloud, surface, parameters, nullptr, threads, own);
+    for (std::size_t i = 0; i < found.normals.size(); ++i)
+      isopoints[begin + i].getNormalVector3fMap() =
+          Eigen::Vector3f(found.normals[i].normal);
+    report.count("degenerate_normals", found.degenerate);
     begin = end;
   }
 }

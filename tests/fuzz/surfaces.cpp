@@ -59,7 +59,7 @@ estimateNormals(const std::uint8_t* bytes, std::size_t size)
   if (input.flip())
     parameters.rotation = {5.0 * input.take<std::int8_t>(), 0.0, 30.0};
   if (input.flip())
-    parameters.view_point = {input.take<float>(), 1.0f, 0.0f};
+    parameters.view_point = Eigen::Array3d(input.take<float>(), 1.0, 0.0);
   pcl_uvol::SurfaceNormalEstimation<Cloud> estimation;
   const auto cloud = takeCloud(input, surface_fields);
   estimation.setInputCloud(cloud);

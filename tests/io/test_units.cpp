@@ -112,7 +112,7 @@ TEST_P(Units, NormalsAreTheSame)
       cloud.push_back(copy);
     }
     pcl_uvol::SurfaceNormalParameters parameters;
-    parameters.view_point.setConstant(std::ldexp(4.0f, exponent));
+    parameters.view_point = Eigen::Array3d::Constant(std::ldexp(4.0, exponent));
     Report report;
     return pcl_uvol::detail::estimateSurfaceNormals(
         pcl_uvol::viewOf(cloud), allOf(cloud.size()), parameters, nullptr, 0, report);

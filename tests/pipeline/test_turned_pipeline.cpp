@@ -175,7 +175,7 @@ TEST(TurnedStages, NormalsAreThoseOfPointsThatAreTurned)
   parameters.scale = {1.0f, 3.0f, 2.0f};
   parameters.rotation = angles;
   const Eigen::Vector3d seen_from = back * Eigen::Vector3d(0.5, 0.5, 9.0);
-  parameters.view_point = seen_from.array().cast<float>();
+  parameters.view_point = seen_from.array();
   estimation.setInputCloud(pcl::make_shared<pcl::PointCloud<pcl::PointXYZ>>(points));
   estimation.setParameters(parameters);
   pcl::PointCloud<pcl::PointNormal> normals;

@@ -111,9 +111,16 @@ def test_snapshots_of_a_level_set_are_those_of_the_tool(tmp_path, run_tool, ball
         assert (tmp_path / "module.ply").read_bytes() == path.read_bytes()
 
 
+def codes(samples):
+    return [warning["code"] for warning in samples.report["warnings"]]
+
+
 def test_normals(tmp_path, run_tool, sphere):
     compare(tmp_path, run_tool, "uvol_normals", sphere, ["-k", "12"], lambda samples: uvol.normals(samples, k=12))
     bare = uvol.Samples(sphere.points)
+    assert "oriented_to_zero" not in codes(uvol.normals(bare, view_point=[0, 0, 0]))
+    with pytest.warns(uvol.ResultWarning):
+        assert "oriented_to_zero" in codes(uvol.normals(bare))
     found = uvol.normals(bare, view_point=[0.5, 0.5, 0.5])
     found = np.stack([found[f"normal_{axis}"] for axis in "xyz"], axis=1)
     assert (np.sum(found * (sphere.points - 0.5), axis=1) < 0).all()

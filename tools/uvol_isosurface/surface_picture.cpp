@@ -2,7 +2,6 @@
 #include "uvol_isosurface/surface_picture.h"
 
 #include "charts/picture_file.h"
-#include "common/report_parts.h"
 #include "surface/memory_need.h"
 
 #include <string>
@@ -101,7 +100,7 @@ SurfacePicture::draw(const Options& options,
   for (const auto& [pass, milliseconds] : drawing.milliseconds)
     report.time("picture_" + pass, milliseconds);
   if (is_ray_traced_)
-    pcl_uvol::addCounts(drawing, {"splats"}, report);
+    report.count("splats", drawing.getCount("splats"));
   return backend;
 }
 

@@ -17,6 +17,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -40,8 +41,9 @@ struct PCL_UVOL_EXPORTS SurfaceNormalParameters {
   /** Turns the axes that these factors belong to, see
    * InterpolationParameters::rotation. */
   Eigen::Array3d rotation{0.0, 0.0, 0.0};
-  /** Where points without a normal of their own are seen from. */
-  Eigen::Array3f view_point{0.0f, 0.0f, 0.0f};
+  /** Where points without a normal of their own are seen from. None (default): 0, 0, 0,
+   * with a warning if the points have no normals. */
+  std::optional<Eigen::Array3d> view_point;
 
   /** \return The members under the names that JSON has for them. */
   static auto
@@ -67,6 +69,12 @@ struct PCL_UVOL_EXPORTS SurfaceNormalParameters {
 };
 
 namespace detail {
+
+/** \brief Warn if normals point to 0, 0, 0 only because nothing else is known. */
+PCL_UVOL_EXPORTS void
+warnOfUnsetViewPoint(const CloudView& cloud,
+                     const SurfaceNormalParameters& parameters,
+                     Report& report);
 
 /** \brief The kernel of SurfaceNormalEstimation for any cloud.
  * \param indices points to take part, as neighbours and in the result
@@ -163,18 +171,19 @@ public:
     return parameters_.scale;
   }
 
-  /** \brief Where points without a normal of their own are seen from. Default 0, 0, 0.
+  /** \brief Where points without a normal of their own are seen from. Default: not set,
+   * which is 0, 0, 0 with a warning.
    * \param x in the coordinates of the cloud
    * \param y as x
    * \param z as x */
   void
-  setViewPoint(float x, float y, float z)
+  setViewPoint(double x, double y, double z)
   {
-    parameters_.view_point = {x, y, z};
+    parameters_.view_point = Eigen::Array3d(x, y, z);
   }
 
-  /** \return Where points without a normal are seen from. */
-  const Eigen::Array3f&
+  /** \return Where points without a normal are seen from; empty if it was not set. */
+  const std::optional<Eigen::Array3d>&
   getViewPoint() const
   {
     return parameters_.view_point;

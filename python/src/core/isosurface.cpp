@@ -135,12 +135,14 @@ public:
           const py::object& progress)
   {
     IsosurfaceResult result;
-    const auto taken = IsosurfacePipelineParameters::fromJson(parameters);
+    auto taken = IsosurfacePipelineParameters::fromJson(parameters);
     runInterruptibly(progress, [&](const ProgressCallback& callback) {
       const std::lock_guard<std::mutex> lock(mutex_);
       result = run(samples, taken, threads, callback);
     });
     py::dict report = describe(result);
+    report["isovalues"] = taken.isosurface.isovalues;
+    taken.isosurface.field = result.field;
     report["parameters"] = toText(taken.toJson());
     return py::make_tuple(share(std::move(result.surface)),
                           toIndices(std::move(result.triangles)),

@@ -129,8 +129,8 @@ describe(detail::SurfaceDistances&& distances)
   return dict;
 }
 
-/** \return distances from the first surface to the second one, and back, and the first
- * one with the field distance */
+/** \return distances from the first surface to the second one, and back, the first one
+ * with the field distance, and warnings */
 py::tuple
 compare(const Dataset& first,
         const TriangleArray& first_triangles,
@@ -141,15 +141,20 @@ compare(const Dataset& first,
 {
   const std::vector<Triangle> here = toTriangles(first_triangles),
                               there = toTriangles(second_triangles);
-  detail::SurfaceDistances forth, back;
+  detail::SurfaceComparison found;
+  Report report;
   DatasetPtr surface;
   runInterruptibly(progress, [&](const ProgressCallback& callback) {
-    forth = detail::measureDistances({first, here}, {second, there}, threads, callback);
-    back = detail::measureDistances({second, there}, {first, here}, threads, callback);
+    report.progress = callback;
+    found = detail::compareSurfaces(
+        {first, here}, {second, there}, {"a", "b"}, threads, report);
     surface = std::make_shared<Dataset>(first);
-    setField(*surface, "distance", forth.at_vertices);
+    setField(*surface, "distance", found.there.at_vertices);
   });
-  return py::make_tuple(describe(std::move(forth)), describe(std::move(back)), surface);
+  return py::make_tuple(describe(std::move(found.there)),
+                        describe(std::move(found.back)),
+                        surface,
+                        toDicts(report.warnings));
 }
 
 } // namespace

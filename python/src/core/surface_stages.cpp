@@ -6,12 +6,11 @@
 #include "core/run_stage.h"
 #include "pipeline/level_set_job.h"
 #include "render/gaussian_splats.h"
+#include "surface/dataset_normals.h"
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 #include <pcl_uvol/surface/splat_generation.h>
-#include <pcl_uvol/surface/surface_normals.h>
 
 #include <array>
-#include <numeric>
 #include <pybind11/stl.h>
 #include <string>
 #include <utility>
@@ -86,26 +85,16 @@ estimateNormals(const DatasetPtr& dataset,
                 unsigned threads,
                 const py::object& progress)
 {
-  SurfaceNormalEstimation<Cloud, pcl::PointNormal> estimation;
-  Cloud cloud;
-  const py::dict report =
-      runStage(estimation, dataset, parameters, threads, progress, [&] {
-        auto shifted = estimation.getParameters();
-        shifted.view_point =
-            (shifted.view_point.cast<double>() - Eigen::Array3d(dataset->origin.data()))
-                .cast<float>();
-        estimation.setParameters(shifted);
-        pcl::PointCloud<pcl::PointNormal> points;
-        estimation.compute(points);
-        const CloudView view = viewOf(dataset->cloud);
-        for (std::size_t i = 0; i < points.size(); ++i)
-          points[i].getVector3fMap() = Eigen::Vector3f(view.xyz(i));
-        std::vector<std::uint32_t> all(points.size());
-        std::iota(all.begin(), all.end(), 0u);
-        pcl::toPCLPointCloud2(points, cloud);
-        copyFields(dataset->cloud, all, cloud, threads);
-      });
-  return py::make_tuple(withCloud(*dataset, std::move(cloud)), report);
+  const auto taken = SurfaceNormalParameters::fromJson(parameters);
+  Report report;
+  Dataset result;
+  runInterruptibly(progress, [&](const ProgressCallback& callback) {
+    report.progress = callback;
+    result = pcl_uvol::estimateNormals(*dataset, taken, threads, report);
+  });
+  py::dict told = toDict(report);
+  told["parameters"] = toText(taken.toJson());
+  return py::make_tuple(share(std::move(result)), told);
 }
 
 py::tuple
