@@ -120,8 +120,6 @@ class Interpolator:
         self._sides = samples._find_box(periodic)
         self._own = len(samples)
         cells = samples._find_cells() if _parameters.flag(cell_mask, "cell_mask") and not any(self._sides) else None
-        if any(samples.box) and not any(self._sides):
-            _report.tell([_report.message("box_in_file", sides=",".join(f"{side:.15g}" for side in samples.box))])
         if any(self._sides):
             samples = Samples._of(samples._with_images(self._sides, (1.0, 1.0, 1.0), threads, progress).samples)
         self._is_single = isinstance(field, str)

@@ -5,15 +5,9 @@ import os
 import sys
 import warnings
 
-from . import _core
 from ._errors import ResultWarning
 
 _FOLDER = os.path.dirname(__file__)
-
-
-def message(code, **values):
-    """A message of the library's table, as `report["warnings"]` lists them."""
-    return _core.make_message(code, values)
 
 
 def tell(messages):

@@ -24,6 +24,21 @@ SamplesInBox::SamplesInBox(Dataset& samples,
   report.count("images", images_.image_of.size());
 }
 
+SamplesInBox::SamplesInBox(std::shared_ptr<const Dataset>& samples,
+                           const std::array<double, 3>& sides,
+                           const Eigen::Array3f& scale,
+                           unsigned threads,
+                           Report& report)
+{
+  if (!pcl_uvol::isPeriodic(sides)) {
+    warnOfUnusedBox(*samples, sides, report);
+    return;
+  }
+  const auto imaged = std::make_shared<Dataset>(*samples);
+  *this = SamplesInBox(*imaged, sides, scale, threads, report);
+  samples = imaged;
+}
+
 void
 SamplesInBox::dropImages(Dataset& points)
 {

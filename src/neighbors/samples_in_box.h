@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 
 namespace pcl_uvol {
 
@@ -25,6 +26,13 @@ public:
    * \param report gets the count "images" and what warnOfUnusedBox() and
    * findPeriodicBox() tell */
   SamplesInBox(Dataset& samples,
+               const std::array<double, 3>& sides,
+               const Eigen::Array3f& scale,
+               unsigned threads,
+               Report& report);
+
+  /** \brief The same for samples of others, which are copied only if there is a box. */
+  SamplesInBox(std::shared_ptr<const Dataset>& samples,
                const std::array<double, 3>& sides,
                const Eigen::Array3f& scale,
                unsigned threads,

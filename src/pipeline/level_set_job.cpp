@@ -3,11 +3,10 @@
 
 #include "common/records.h"
 #include "common/sample_checks.h"
-#include "common/scalar_field.h"
 #include "common/stretch_axes.h"
 #include "levelset/level_set_input.h"
 #include "neighbors/samples_in_box.h"
-#include "pipeline/pipeline_input.h"
+#include "pipeline/periodic_surface.h"
 #include "pipeline/weak_support.h"
 #include "pipeline/zero_level.h"
 #include <pcl_uvol/levelset/level_set_evolution.h>
@@ -49,15 +48,10 @@ runLevelSet(const std::shared_ptr<const Dataset>& samples,
     taken.scale = result.scale_choice->scale;
   }
 
-  warnOfUnusedBox(*samples, request.periodic, result.report);
   std::shared_ptr<const Dataset> input = samples;
-  std::optional<SamplesInBox> boxed;
-  if (isPeriodic(request.periodic)) {
-    const auto imaged = std::make_shared<Dataset>(*samples);
-    boxed.emplace(*imaged, request.periodic, taken.scale, threads, result.report);
-    result.box = toSampleBox(boxed->getBox(), samples->origin);
-    input = imaged;
-  }
+  SamplesInBox boxed(input, request.periodic, taken.scale, threads, result.report);
+  if (boxed.isPeriodic())
+    result.box = toSampleBox(boxed.getBox(), samples->origin);
   LevelSetParameters parameters = taken;
   parameters.initial = moveShape(taken.initial, Eigen::Array3d(input->origin.data()));
 
@@ -77,12 +71,11 @@ runLevelSet(const std::shared_ptr<const Dataset>& samples,
       });
   result.samples = withoutCloud(*input);
   evolution.evolve(result.samples.cloud);
-  if (boxed)
-    boxed->dropImages(result.samples);
+  boxed.dropImages(result.samples);
   result.report.merge(evolution.getReport());
   result.summary = evolution.getSummary();
   result.sampling = *evolution.getSampling();
-  if (!boxed) // most of what is examined there may be images
+  if (!result.box) // most of what is examined there may be images
     if (const auto guesses =
             describeWeakSupport(findSupportCounts(evolution.getTally()),
                                 result.sampling,

@@ -3,6 +3,7 @@
 
 #include "pipeline/extract_points.h"
 #include "pipeline/finish_isosurface.h"
+#include "pipeline/turned_axes.h"
 #include <pcl_uvol/common/map_projection.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>
 
@@ -18,18 +19,18 @@ extractMembershipSurface(const Dataset& samples,
                          unsigned threads,
                          Report& report)
 {
-  const detail::StretchAxes axes(stretch.rotation);
-  Dataset turned = samples;
-  axes.turn(turned.cloud);
-  Dataset with_field = turned;
-  setField(with_field, "membership", members);
-  IsosurfacePipelineParameters parameters;
+  PipelineInput input{{&samples, [](const void*) {}}, nullptr, {}};
+  IsosurfacePipelineParameters& parameters = input.parameters;
+  parameters.rotation = stretch.rotation;
   parameters.isosurface.field = "membership";
   parameters.isosurface.isovalues = {0.5};
   parameters.isosurface.scale = stretch.scale;
   parameters.isosurface.interpolation =
       is_smooth ? Interpolation::Fit : Interpolation::Linear;
   parameters.normals = NormalMethod::Edge;
+  const TurnedAxes axes(input);
+  Dataset with_field = *input.samples;
+  setField(with_field, "membership", members);
   IsosurfaceExtraction<pcl::PCLPointCloud2> extraction;
   extraction.setInputCloud(
       pcl::PCLPointCloud2::ConstPtr(&with_field.cloud, [](const void*) {}));
@@ -37,7 +38,7 @@ extractMembershipSurface(const Dataset& samples,
       extractPoints(extraction, parameters.isosurface, threads, report);
   SelfCommunicator alone;
   // Without the field, whose value is the same everywhere.
-  auto result = finishIsosurface(turned,
+  auto result = finishIsosurface(*input.samples,
                                  std::move(found),
                                  parameters,
                                  std::nullopt,
@@ -46,7 +47,7 @@ extractMembershipSurface(const Dataset& samples,
                                  std::move(report),
                                  SurfaceRole::ClusterBorder);
   report = std::move(result.report);
-  axes.turnBack(result.surface.cloud);
+  axes.leave(result);
   setGlobeFields(result.surface);
   return std::move(result.surface);
 }
