@@ -2,6 +2,7 @@
 // Every front end warns of the same things on the same samples: the tool, the tool on
 // ranks, Python, the filter of VTK and the viewer.
 #include "support/mpi_job.h"
+#include "support/snapshots.h"
 #include "support/virtual_display.h"
 #include "vtk_setup.h"
 #include <pcl_uvol/common/dataset.h>
@@ -147,12 +148,6 @@ listSubjects()
   return subjects;
 }
 
-std::string
-isoOf(const Subject& subject)
-{
-  return json(subject.isovalue).dump();
-}
-
 /** A message and its texts: as the options of a tool and as properties of VTK name
  * parameters. */
 std::vector<Message>
@@ -191,15 +186,85 @@ sortedCodes(const std::vector<Message>& messages)
   return codes;
 }
 
-class SameWarnings : public testing::TestWithParam<std::size_t> {
+/** Front ends that read the same file. */
+class FrontEnds : public testing::Test {
+protected:
+  /** Write samples into the file. */
+  void
+  save(const Samples& samples) const
+  {
+    pcl_uvol::Dataset dataset;
+    setCoordinates(dataset, samples.xyz);
+    setField(dataset, "f", samples.f);
+    pcl_uvol::saveDataset(folder_ / in_, dataset);
+  }
+
+  /** What a command that prints a report tells.
+   * \param output what it writes, and further options */
+  std::vector<Message>
+  runTool(const std::string& tool, const std::string& output = "out.vtp") const
+  {
+    const auto result =
+        runCommand("cd " + (folder_ / "") + " && " + tool + " " + in_ + " " + output +
+                   " -field '" + field_ + "' -json -iso " + json(isovalue_).dump());
+    EXPECT_EQ(0, result.exit_code) << result.err;
+    return toMessages(json::parse(result.out).at("warnings"));
+  }
+
+  /** What Python tells of a surface or samples.
+   * \param call of a function of the module, up to its isovalue
+   * \param options behind it */
+  std::vector<Message>
+  runPython(const std::string& call, const std::string& options = "") const
+  {
+    writeFile(folder_ / "run.py",
+              "import json, sys, warnings\n"
+              "import pcl_uvol as uvol\n"
+              "warnings.simplefilter('ignore')\n"
+              "found = uvol." +
+                  call + "(uvol.read('" + in_ + "'), field='" + field_ +
+                  "', iso=" + json(isovalue_).dump() + options +
+                  ")\n"
+                  "print(json.dumps(found.report['warnings']))\n");
+    const auto result = runCommand("cd " + (folder_ / "") + " && " +
+                                   std::string(PCL_UVOL_PYTHON) + " run.py");
+    EXPECT_EQ(0, result.exit_code) << result.err;
+    return result.exit_code == 0 ? toMessages(json::parse(result.out))
+                                 : std::vector<Message>();
+  }
+
+  /** Tool, ranks and Python warn of the same.
+   * \param options of the tools
+   * \param arguments of Python that say the same
+   * \return the codes */
+  std::vector<std::string>
+  compareFrontEnds(const std::string& options, const std::string& arguments) const
+  {
+    const auto told = runTool("uvol_isosurface", "out.vtp" + options);
+    const auto codes = sortedCodes(told);
+    if (hasMpirun()) {
+      EXPECT_EQ(
+          codes,
+          sortedCodes(runTool(mpirun(2) + "uvol_isosurface_mpi", "out.vtp" + options)));
+    }
+    if (!std::string(PCL_UVOL_PYTHON).empty()) {
+      EXPECT_EQ(sortedTexts(told), sortedTexts(runPython("isosurface", arguments)));
+    }
+    return codes;
+  }
+
+  std::string in_ = "in.vtp", field_ = "f";
+  double isovalue_ = 0.6;
+  TemporaryFolder folder_;
+};
+
+class SameWarnings : public FrontEnds, public testing::WithParamInterface<std::size_t> {
 protected:
   void
   SetUp() override
   {
-    pcl_uvol::Dataset dataset;
-    setCoordinates(dataset, subject().samples.xyz);
-    setField(dataset, "f", subject().samples.f);
-    pcl_uvol::saveDataset(folder_ / "in.vtp", dataset);
+    isovalue_ = subject().isovalue;
+    save(subject().samples);
   }
 
   /** Not above all values. */
@@ -213,17 +278,6 @@ protected:
   subject()
   {
     return listSubjects()[GetParam()];
-  }
-
-  /** What a command that prints a report tells.
-   * \param output what it writes */
-  std::vector<Message>
-  runTool(const std::string& tool, const std::string& output = "out.vtp") const
-  {
-    const auto result = runCommand("cd " + (folder_ / "") + " && " + tool + " in.vtp " +
-                                   output + " -field f -json -iso " + isoOf(subject()));
-    EXPECT_EQ(0, result.exit_code) << result.err;
-    return toMessages(json::parse(result.out).at("warnings"));
   }
 
   /** The words of a filter's warnings, without the place that VTK puts in front. */
@@ -257,28 +311,6 @@ protected:
                               }))
           << text << json(heard);
   }
-
-  /** What Python tells of a surface or samples.
-   * \param call of a function of the module, up to its isovalue */
-  std::vector<Message>
-  runPython(const std::string& call) const
-  {
-    writeFile(folder_ / "run.py",
-              "import json, sys, warnings\n"
-              "import pcl_uvol as uvol\n"
-              "warnings.simplefilter('ignore')\n"
-              "found = uvol." +
-                  call + "(uvol.read('in.vtp'), field='f', iso=" + isoOf(subject()) +
-                  ")\n"
-                  "print(json.dumps(found.report['warnings']))\n");
-    const auto result = runCommand("cd " + (folder_ / "") + " && " +
-                                   std::string(PCL_UVOL_PYTHON) + " run.py");
-    EXPECT_EQ(0, result.exit_code) << result.err;
-    return result.exit_code == 0 ? toMessages(json::parse(result.out))
-                                 : std::vector<Message>();
-  }
-
-  TemporaryFolder folder_;
 };
 
 TEST_P(SameWarnings, ToolAndFilter)
@@ -295,6 +327,14 @@ TEST_P(SameWarnings, ToolAndFilter)
 }
 
 /** Ranks have other normals where there is no fit, and so other numbers. */
+TEST_P(SameWarnings, ToolAndBoundedMemory)
+{
+  in_ = "in.ply"; // which can be read in parts
+  save(subject().samples);
+  EXPECT_EQ(sortedCodes(runTool("uvol_isosurface")),
+            sortedCodes(runTool("uvol_isosurface", "out.vtp -max-memory 500M")));
+}
+
 TEST_P(SameWarnings, ToolAndRanks)
 {
   if (!hasMpirun())
@@ -341,5 +381,32 @@ INSTANTIATE_TEST_SUITE_P(Subjects,
                          [](const auto& index) {
                            return std::string(listSubjects()[index.param].name);
                          });
+
+using SameWarningsOfBox = FrontEnds;
+
+TEST_F(SameWarningsOfBox, PeriodicBox)
+{
+  save(makeBall());
+  compareFrontEnds(" -periodic 2,2,2", ", periodic=(2, 2, 2)");
+}
+
+TEST_F(SameWarningsOfBox, BoxOfTheFileThatIsNotUsed)
+{
+  GadgetLayout layout;
+  layout.here[0] = layout.total[0] = 200;
+  layout.box = 101.0;
+  in_ = "snapshot";
+  field_ = "|VEL|";
+  isovalue_ = 200.0;
+  writeFile(folder_ / in_, makeGadget(layout));
+  const auto codes = compareFrontEnds("", "");
+  EXPECT_EQ(1, std::count(codes.begin(), codes.end(), "box_in_file")) << json(codes);
+  EXPECT_EQ(codes, sortedCodes(runTool("uvol_isosurface", "out.vtp -max-memory 500M")));
+  if (VirtualDisplay::isInstalled()) {
+    const VirtualDisplay display;
+    EXPECT_EQ(codes,
+              sortedCodes(runTool("uvol_viewer", "-screenshot out.png -size 100x75")));
+  }
+}
 
 } // namespace test_same_warnings
