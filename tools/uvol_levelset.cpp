@@ -106,17 +106,17 @@ run(int argc, char** argv)
   finish(options, arguments);
   pcl_uvol::LevelSetRequest& request = arguments.request;
   pcl_uvol::LevelSetParameters& wanted = request.level_set;
-  const auto bytes = [&](double points, double step) {
+  const auto samples = std::make_shared<pcl_uvol::Dataset>(job.read([&](double points,
+                                                                        double step) {
     return std::max({pcl_uvol::levelSetJobBytes(points, step, request),
                      uvol_tools::derivativeBytes(wanted.field, points),
                      uvol_tools::derivativeBytes(wanted.initial.field_name, points)});
-  };
-  const auto samples = std::make_shared<pcl_uvol::Dataset>(job.read(bytes));
+  }));
   request.periodic = arguments.periodic.findSides(*samples);
   for (std::string* field : {&wanted.field, &wanted.initial.field_name})
     uvol_tools::addField(*samples, *field, options, job.report, request.periodic);
   wanted.scale = arguments.scale.findStretch(pcl_uvol::viewOf(samples->cloud)).scale;
-  job.check(*samples, bytes);
+  job.check(*samples);
   const auto save = [&](std::size_t steps, const auto& surface) {
     saveDataset(uvol_tools::numberedPath(job.getOutput(), steps), surface, {});
   };

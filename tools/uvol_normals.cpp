@@ -47,9 +47,7 @@ run(int argc, char** argv)
   if (!options.parse(argc, argv))
     return 0;
   scale.finish(options);
-  const auto bytes = forecastMemory(parameters.k);
-  const pcl_uvol::Dataset dataset = job.read(bytes);
-  job.check(dataset, bytes);
+  const pcl_uvol::Dataset dataset = job.read(forecastMemory(parameters.k));
   uvol_tools::Facts of_scale;
   const auto stretch = scale.resolve(
       pcl_uvol::viewOf(dataset.cloud), "", options.threads(), job.report, of_scale);

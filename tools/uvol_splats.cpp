@@ -87,7 +87,6 @@ run(int argc, char** argv)
     throw uvol_tools::UsageError("-gaussians are written as .ply.");
   const pcl_uvol::SplatParameters parameters = splat_options.parameters(options);
   const pcl_uvol::Dataset dataset = job.read(forecastMemory);
-  job.check(dataset, forecastMemory);
   pcl_uvol::Dataset result = pcl_uvol::withoutCloud(dataset);
   result.cloud =
       generateSplats(dataset.cloud, parameters, options.threads(), job.report);

@@ -40,14 +40,18 @@ PointJob::read(const MemoryGuard::Bytes& bytes)
   memory_.checkFile(input_, where.empty() ? bytes : nullptr, load);
   facts = {{"input", input_}, {"output", output_}};
   total_.emplace(report, "total");
-  return loadPoints(input_, report, load, where, options_.threads(), &points_);
+  pcl_uvol::Dataset points =
+      loadPoints(input_, report, load, where, options_.threads(), &points_);
+  bytes_ = bytes;
+  check(points);
+  return points;
 }
 
 void
-PointJob::check(const pcl_uvol::Dataset& points, const MemoryGuard::Bytes& bytes)
+PointJob::check(const pcl_uvol::Dataset& points)
 {
   pcl_uvol::checkSavePath(output_, points.cloud.fields);
-  memory_.checkCloud(points, bytes);
+  memory_.checkCloud(points, bytes_);
 }
 
 int

@@ -36,16 +36,16 @@ public:
   void
   declareOutput();
 
-  /** \brief Check the name of the output and the memory that the points take, and read
-   * them.
+  /** \brief Check the name of the output and the memory that the points take, before
+   * they are read and after.
    * \param bytes that the tool takes, see MemoryGuard
    * \throws IOError, NotEnoughMemory, InvalidArgument for a file without points */
   pcl_uvol::Dataset
   read(const MemoryGuard::Bytes& bytes);
 
-  /** \brief Check the points once more, with all fields that they are written with. */
+  /** \brief The same once more, if the points have more fields now. */
   void
-  check(const pcl_uvol::Dataset& points, const MemoryGuard::Bytes& bytes);
+  check(const pcl_uvol::Dataset& points);
 
   /** \brief Write the result and print the report.
    * \return the exit code of the tool */
@@ -70,6 +70,7 @@ private:
   Options& options_;
   std::optional<InputOptions> reading_;
   MemoryGuard memory_;
+  MemoryGuard::Bytes bytes_;
   ProgressBar bar_;
   std::optional<pcl_uvol::StepTimer> total_;
   std::string input_, output_;
