@@ -6,10 +6,8 @@
 #include "common/printable.h"
 #include "common/scalar_field.h"
 #include "neighbors/periodic_box.h"
-#include "pipeline/memory_need.h"
 #include "shared/isosurface_options.h"
 #include "shared/measure_table.h"
-#include "shared/memory_guard.h"
 #include "shared/options.h"
 #include "shared/periodic_option.h"
 #include "shared/point_files.h"
@@ -220,10 +218,7 @@ loadSamples(const Options& options, Arguments& arguments, Report& report)
 
 /** Meshes of the isosurfaces of samples. */
 Surface
-extractSurface(const Options& options,
-               Arguments& arguments,
-               uvol_tools::MemoryGuard& memory,
-               Report& report)
+extractSurface(const Options& options, Arguments& arguments, Report& report)
 {
   const auto samples = loadSamples(options, arguments, report);
   const std::array<double, 3> sides = arguments.periodic.findSides(*samples);
@@ -231,9 +226,6 @@ extractSurface(const Options& options,
     arguments.parameters.periodic = {sides[0], sides[1], sides[2]};
     arguments.parameters.periodic_mesh = pcl_uvol::PeriodicMesh::Weld;
   }
-  memory.checkCloud(*samples, [&](double points, double step) {
-    return pcl_uvol::pipelineBytes(points, step, arguments.parameters);
-  });
   pcl_uvol::IsosurfacePipeline pipeline;
   pipeline.setInput(samples);
   pipeline.setParameters(arguments.parameters);
@@ -450,7 +442,6 @@ run(int argc, char** argv, const uvol_tools::SeriesStep* step, MeasureSeries& se
   if (!options.parse(argc, argv))
     return 0;
   check(options, arguments);
-  uvol_tools::MemoryGuard memory("Measuring isosurfaces");
   Report report;
   uvol_tools::ProgressBar bar;
   report.progress = std::ref(bar);
@@ -460,7 +451,7 @@ run(int argc, char** argv, const uvol_tools::SeriesStep* step, MeasureSeries& se
           : measureSurfaces(options,
                             arguments,
                             options.given("iso")
-                                ? extractSurface(options, arguments, memory, report)
+                                ? extractSurface(options, arguments, report)
                                 : loadSurface(options, arguments, report),
                             report);
   if (step)
