@@ -30,7 +30,7 @@ def check_parameters(root):
     source = (root / "src/common/message.cpp").read_text()
     listed = {name: set(re.findall(r'"-([a-z-]+)"', re.search(name + r"\[\] = \{(.*?)\}", source, re.DOTALL).group(1)))
               for name in ("tools_only", "with_property")}
-    tables = "".join((root / "src/common" / f"{kind}_texts.cpp").read_text() for kind in ("warning", "error"))
+    tables = "".join((root / "src/common" / f"{kind}_texts.cpp").read_text() for kind in ("warning", "error", "file_error"))
     named = set(re.findall(r"\{-([a-z-]+)", tables))
     python = set(re.findall(r"(\w+): ", (root / "python/pcl_uvol/__init__.pyi").read_text())) | {"viewpoint"}
     vtk = set(re.findall(r"vtk[GS]et\w*Macro\((\w+)|[GS]et(\w+)\(", "".join(

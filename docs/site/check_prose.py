@@ -14,7 +14,7 @@ import re
 import sys
 
 STRICT = ("README.md", "docs/index.md", "docs/install.md", "docs/quickstart.md", "docs/reading_a_report.md", "docs/start/",
-          "src/common/warning_texts.cpp", "src/common/error_texts.cpp")
+          "src/common/warning_texts.cpp", "src/common/error_texts.cpp", "src/common/file_error_texts.cpp")
 MOST_WORDS, MOST_IN_MESSAGES, MOST_IN_PARAGRAPH = 30, 28, 90
 PRIVATE = {
     r"\b(is|are|was|were) told\b|\btold (of|as|apart|by|no)\b|\btells? (of|the|a|which|what|how|its|whether|area|nothing)\b":
@@ -160,7 +160,7 @@ def judge_public_header(text):
 
 def list_sources(root):
     """Path and judge of each file."""
-    tables = {root / "src/common" / name for name in ("warning_texts.cpp", "error_texts.cpp")}
+    tables = {root / "src/common" / name for name in ("warning_texts.cpp", "error_texts.cpp", "file_error_texts.cpp")}
     for name in ("README.md", "python/README.md", "CONTRIBUTING.md", "CHANGELOG.md", "SECURITY.md", "examples/README.md",
                  "tests/benchmarks/README.md"):
         yield root / name, judge_page

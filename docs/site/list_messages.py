@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes the warnings and errors of docs/reference/errors.md, in alphabetical order, from src/common/warning_texts.cpp
-and error_texts.cpp. Each has a heading that you can link to, its text, and what to do, which is kept from the page. Lists codes that the sources use but no table has, and codes that no source uses.
+"""Writes the warnings and errors of docs/reference/errors.md, in alphabetical order, from src/common/warning_texts.cpp,
+error_texts.cpp and file_error_texts.cpp. Each has a heading that you can link to, its text, and what to do, which is kept from the page. Lists codes that the sources use but no table has, and codes that no source uses.
 
 usage: list_messages.py REPOSITORY [--check]     --check: list what would change, with exit code 1; write nothing
 """
@@ -9,7 +9,9 @@ import pathlib
 import re
 import sys
 
-TABLES = {"Warnings A-Z": "src/common/warning_texts.cpp", "Errors A-Z": "src/common/error_texts.cpp"}
+FILES = "Errors of files A-Z"
+TABLES = {"Warnings A-Z": "src/common/warning_texts.cpp", "Errors A-Z": "src/common/error_texts.cpp",
+          FILES: "src/common/file_error_texts.cpp"}
 PAGE = "docs/reference/errors.md"
 BEGIN, END = "<!-- messages: made by docs/site/list_messages.py -->\n", "<!-- end of messages -->\n"
 LITERALS = r'((?:"(?:[^"\\\n]|\\.)*"\s*)+)'
@@ -81,6 +83,28 @@ def escaped(text):
     return "".join(part if i % 2 else part.replace("*", "\\*").replace("<", "&lt;") for i, part in enumerate(re.split("(`[^`]*`)", text)))
 
 
+def count_values(call):
+    """The values behind the code in `{"code", a, b(c, d)}`, of which `call` begins behind the code."""
+    depth, values, quoted = 0, 0, False
+    for i, letter in enumerate(call):
+        quoted ^= letter == '"' and call[i - 1] != "\\"
+        depth += 0 if quoted else {**dict.fromkeys("({[", 1), **dict.fromkeys(")}]", -1)}.get(letter, 0)
+        values += letter == "," and depth == 0 and not quoted
+        if depth < 0:
+            return values
+    raise ValueError(call)
+
+
+def check_reasons(rows, sources):
+    """Reasons of files are named by their place: as many values as the text has, or fewer where it has alternatives."""
+    for code, text in rows.items():
+        names = len(set(re.findall(r"\{([a-z_]+)", text)))
+        for match in re.finditer(rf'\{{"{code}"(?=[,}}])', sources):
+            given = count_values(sources[match.end():match.end() + 1000])
+            if given != names and not (given < names and "|" in text):
+                yield f"The reason '{code}' has {names} values, but {given} are given."
+
+
 def make_headings(rows, advice):
     sections = []
     for code, text in sorted(rows.items()):
@@ -98,6 +122,7 @@ def main():
     wrong = [f"No table has the code '{code}'." for code in sorted(set(USED.findall(sources)) - {*codes, TEXT})]
     wrong += [f"No source uses the code '{code}'." for code in codes if f'"{code}"' not in sources]
     wrong += [f"The code '{code}' has two rows." for code in set(codes) if codes.count(code) > 1]
+    wrong += check_reasons(tables[FILES], sources)
     page = (root / PAGE).read_text()
     if BEGIN not in page or END not in page:
         sys.exit(f"{PAGE} lacks the markers of the table: {BEGIN}{END}")

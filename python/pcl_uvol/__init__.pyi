@@ -76,6 +76,7 @@ class Distances:
 
 class DivergedError(ArithmeticError):
     code: str | None
+    values: dict[str, float | str]
 
 class Extractor:
     samples: Samples
@@ -89,6 +90,7 @@ class FieldDifference(NamedTuple):
 
 class FieldError(KeyError):
     code: str | None
+    values: dict[str, float | str]
 
 class FieldFigures(NamedTuple):
     mean: float

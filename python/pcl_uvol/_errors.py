@@ -9,6 +9,8 @@ class FieldError(KeyError):
     ----------
     code : str or None
         What went wrong, as one word; None if there is only a text.
+    values : dict
+        The numbers and names in the text.
 
     Examples
     --------
@@ -20,6 +22,7 @@ class FieldError(KeyError):
     """
 
     code = None
+    values = {}
 
     def __str__(self):
         return self.args[0] if self.args else ""
@@ -32,6 +35,8 @@ class DivergedError(ArithmeticError):
     ----------
     code : str or None
         What went wrong, as one word; None if there is only a text.
+    values : dict
+        The numbers and names in the text.
 
     Examples
     --------
@@ -40,6 +45,7 @@ class DivergedError(ArithmeticError):
     """
 
     code = None
+    values = {}
 
 
 class ResultWarning(UserWarning):

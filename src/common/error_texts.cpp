@@ -492,12 +492,12 @@ const MessageText error_rows[] = {
      "DistributedIsosurfacePipeline has no input. Try: call setInput."},
 
     // render
-    {"cloud_without_usable_splats", "no splat of '{cloud}' is usable"},
+    {"cloud_without_usable_splats", "no splat of '{cloud}' is usable."},
     {"cloud_without_extent",
-     "all points of '{cloud}' are at one position, which cannot be fitted to a size"},
+     "all points of '{cloud}' are at one position, which cannot be fitted to a size."},
     {"splat_beyond_float",
      "a splat of '{cloud}' becomes larger or smaller than float can hold, or is beyond "
-     "1e18"},
+     "1e18."},
     {"material_beyond_one",
      "Reflectivity and transparency are {reflectivity} and {transparency}: both must "
      "be non-negative, and their sum at most 1."},
@@ -629,37 +629,6 @@ const MessageText error_rows[] = {
     {"empty_source", "The source has no points to interpolate between."},
 
     // io
-    {"some_coordinates_named",
-     "Cannot read '{path}': its header names only some of x, y and z, for example "
-     "'{column}'. Try: name the coordinate columns, or give their numbers ({-xyz})."},
-    {"only_times_named",
-     "Cannot read '{path}': its header names no coordinates but times. Try: name the "
-     "coordinate columns, or give their numbers ({-xyz})."},
-    {"z_is_missing",
-     "Cannot read '{path}': it has x and y but no z. Try: add a z column, for example "
-     "0 "
-     "for samples in a plane."},
-    {"filter_not_installed",
-     "Cannot read '{path}': '{name}' is compressed by the HDF5 filter {filter} ({id}), "
-     "which is not installed. Try: h5repack -f GZIP=4 on a machine with the filter."},
-    {"swapped_bytes",
-     "Cannot read '{path}': the numbers of '{name}' are in the byte order of this "
-     "machine, but legacy VTK files are big-endian. Try: write it as big-endian or "
-     ".vtu."},
-    {"tecplot_blocks",
-     "Cannot read '{path}': its zone has BLOCK packing. Try: write it with "
-     "DATAPACKING=POINT."},
-    {"coordinate_below_limit",
-     "Cannot read '{path}': its coordinate {column} has values below a limit, for "
-     "example <0.25."},
-    {"whole_numbers_guessed",
-     "Cannot read '{path}': its header names no coordinates, and integers as in "
-     "'{column}' are ambiguous. Try: names or numbers of the coordinate columns "
-     "({-xyz})."},
-    {"no_coordinate_column",
-     "there is no column '{column}' for a coordinate; the columns are '{first}' to "
-     "'{last}', or 0 to {most}"},
-    {"repeated_coordinate_column", "the coordinates require three different columns"},
     {"columns_of_no_text",
      "Coordinate columns can only be chosen in text files, and '{path}' is not a text "
      "file."},
@@ -668,17 +637,12 @@ const MessageText error_rows[] = {
     {"cells_of_no_grid",
      "Cells can only be read from VTK (except .vtkhdf), Exodus, EnSight and OpenFOAM "
      "files, but not from '{path}'."},
-    {"unreadable", "Cannot read '{path}': {reason}."},
-    {"unreadable_line", "Cannot read '{path}', line {line}: {reason}."},
-    {"no_such_file", "Cannot read '{path}': there is no such file."},
-    {"unwritable", "Cannot write '{path}': {reason}."},
     {"resolution_not_allowed",
      "The resolution of an image is {resolution} dots per inch: it must be 1 to a "
      "million, or 0 for unspecified."},
     {"png_not_encoded", "libpng could not encode an image: {reason}."},
     {"image_without_pixels", "The image has no pixels."},
     {"empty_scene", "The scene '{path}' is empty: it has no cloud, sphere or plane."},
-    {"scene_line", "{place}: {reason}."},
     {"vtk_library_not_loaded",
      "The library for VTK, HDF5, NetCDF and text in images could not be loaded: it is "
      "not next to libpcl_uvol_io.so, or memory is exhausted."},
@@ -695,11 +659,6 @@ const MessageText error_rows[] = {
      "'{other}'. Try: join them to one file, where names may be numbers."},
     {"pieces_without_points", "None of the {pieces} pieces has points."},
     {"no_file_to_read", "No file to read is given."},
-
-    // io_vtk
-    {"unknown_snapshot",
-     "Cannot read '{path}': {-particles} requires a snapshot, and the file is not a "
-     "known snapshot."},
 
     // tools
     {"no_points", "{path} has no points."},

@@ -2,7 +2,10 @@
 // The texts of all messages.
 #pragma once
 
+#include <pcl_uvol/common/export.h>
+
 #include <string>
+#include <vector>
 
 namespace pcl_uvol::detail {
 
@@ -42,9 +45,17 @@ listWarnings();
 MessageTexts
 listErrors();
 
+/** \brief Why files cannot be read or written: file_error_texts.cpp. */
+MessageTexts
+listFileErrors();
+
 /** \brief The row of a code.
  * \throws InvalidArgument if there is none */
 const MessageText&
 findMessageText(const std::string& code);
+
+/** \brief The names of the values in the text of a code, in their order. */
+PCL_UVOL_EXPORTS std::vector<std::string>
+listValues(const std::string& code);
 
 } // namespace pcl_uvol::detail

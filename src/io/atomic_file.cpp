@@ -150,7 +150,7 @@ private:
   [[noreturn]] void
   fail() const
   {
-    io::throwUnwritable(name_, std::strerror(errno));
+    io::throwUnwritable(name_, io::systemError());
   }
 
   template <typename Create>
@@ -243,7 +243,7 @@ UnfinishedFile::finish()
       fs::copy_file(nameless, part_, fs::copy_options::overwrite_existing, error);
       ::close(from);
       if (error)
-        io::throwUnwritable(name_, error.message());
+        io::throwUnwritable(name_, {"system_error", error.message()});
       flush();
     }
   }
@@ -266,11 +266,11 @@ writeToStandardOutput(const std::function<void(const std::string&)>& writer)
       const ssize_t now = ::write(
           STDOUT_FILENO, block.data() + sent, static_cast<std::size_t>(got - sent));
       if (now < 0 && errno != EINTR)
-        io::throwUnwritable(name, std::strerror(errno));
+        io::throwUnwritable(name, io::systemError());
       sent += std::max<ssize_t>(now, 0);
     }
     if (got < 0)
-      io::throwUnwritable(name, std::strerror(errno));
+      io::throwUnwritable(name, io::systemError());
     at += got;
   }
 }
@@ -306,11 +306,10 @@ writeAtomically(const std::string& path,
   struct stat status {};
   const bool is_there = ::stat(path.c_str(), &status) == 0;
   if (!is_there && errno == ELOOP)
-    io::throwUnwritable(path, std::strerror(errno));
+    io::throwUnwritable(path, io::systemError());
   if (is_there && !S_ISREG(status.st_mode))
     io::throwUnwritable(path,
-                        S_ISDIR(status.st_mode) ? "it is a directory"
-                                                : "it is not a regular file");
+                        S_ISDIR(status.st_mode) ? "is_directory" : "not_regular_file");
   UnfinishedFile file(resolveLinks(path), path);
   writer(file.getPath());
   file.finish();

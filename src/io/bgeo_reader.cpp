@@ -81,7 +81,7 @@ private:
   [[noreturn]] void
   throwTruncated() const
   {
-    throwUnreadable(path_, "it is truncated or damaged: it ends within its header");
+    throwUnreadable(path_, {"truncated_part", "its header"});
   }
 
   const std::string& path_;
@@ -118,19 +118,16 @@ BgeoHeader::takeMagic()
   constexpr std::size_t magic_bytes = 5;
   const std::string magic = cursor_.getFile().head(magic_bytes);
   if (magic.rfind("\x7fNSJ", 0) == 0)
-    throwUnreadable(path_,
-                    "it is a .bgeo of Houdini 12 or newer; saved by Houdini as "
-                    ".bhclassic it can be read");
+    throwUnreadable(path_, "houdini_12");
   if (magic != "BgeoV")
     throwUnreadable(path_,
-                    "it is not a classic .bgeo file of Houdini: it does not begin with "
-                    "'BgeoV'");
+                    {"wrong_start", "a classic .bgeo file of Houdini", "'BgeoV'"});
   cursor_.skip(magic_bytes);
   const auto found = takeNumber<std::uint32_t>();
   if (found != version)
-    throwUnreadable(path_,
-                    "it is a .bgeo of version " + std::to_string(found) +
-                        ", and version 5 is read");
+    throwUnreadable(
+        path_,
+        {"unsupported_value", "its version", shortenText(std::to_string(found)), "5"});
 }
 
 Counts
@@ -140,7 +137,7 @@ BgeoHeader::takeCounts()
   for (std::uint32_t& count : counts) {
     count = takeNumber<std::uint32_t>();
     if (count > INT32_MAX)
-      throwUnreadable(path_, "it is damaged: a count of its header is negative");
+      throwUnreadable(path_, {"invalid_part", "a count of its header"});
   }
   return {counts[0],
           counts[1],
@@ -167,21 +164,22 @@ BgeoHeader::takeAttributes(std::uint32_t count)
     if (attribute.kind != Kind::Float && attribute.kind != Kind::Int &&
         attribute.kind != Kind::Index && attribute.kind != Kind::Vector)
       throwUnreadable(path_,
-                      called + " has the type " + std::to_string(kind) +
-                          ", and numbers, names and vectors (0, 1, 4, 5) are read");
+                      {"unsupported_value",
+                       "the type of " + called,
+                       shortenText(std::to_string(kind)),
+                       "0, 1, 4 and 5 (numbers, names and vectors)"});
     if (attribute.components < 1 || attribute.components > most_table_components)
       throwUnreadable(path_,
-                      called + " has " + std::to_string(attribute.components) +
-                          " numbers per point, and 1 to " +
-                          std::to_string(most_table_components) + " are read");
+                      {"unsupported_value",
+                       "the number of components of " + called,
+                       shortenText(std::to_string(attribute.components)),
+                       "1 to " + std::to_string(most_table_components)});
     if (!known.insert(attribute.name).second)
-      throwUnreadable(path_, "it is damaged: " + called + " is there twice");
+      throwUnreadable(path_, {"repeated_part", called});
     if (attribute.kind == Kind::Index) {
       const auto names = takeNumber<std::uint32_t>();
       if (names > most_names)
-        throwUnreadable(path_,
-                        called + " has " + std::to_string(names) + " names, and " +
-                            std::to_string(most_names) + " are read");
+        throwUnreadable(path_, {"too_many_parts", called, most_names, "names"});
       for (std::uint32_t k = 0; k < names; ++k)
         attribute.names.push_back(takeText());
     }
@@ -214,17 +212,13 @@ BgeoHeader::passPrimitives(const Counts& counts)
   for (std::uint32_t i = 0; i < counts.primitives; ++i) {
     const auto kind = takeNumber<std::uint32_t>();
     if (kind != particle_system)
-      throwUnreadable(path_,
-                      "it contains curves or surfaces (primitives of kind " +
-                          std::to_string(kind) +
-                          "), and particles alone are read; Houdini's Add node, which "
-                          "keeps the points, takes them away");
+      throwUnreadable(path_, {"houdini_primitives", kind});
     const auto vertices = takeNumber<std::uint32_t>();
     if (vertices > cursor_.left() / of_vertex ||
         !cursor_.skip(vertices * of_vertex + of_primitive))
-      throwUnreadable(path_,
-                      "it is truncated or damaged: it ends within a system of " +
-                          std::to_string(vertices) + " particles");
+      throwUnreadable(
+          path_,
+          {"truncated_part", "a system of " + std::to_string(vertices) + " particles"});
   }
 }
 
@@ -254,10 +248,10 @@ BgeoHeader::read(std::vector<Attribute>& attributes)
   const std::size_t point_bytes = recordBytes(info.fields);
   if (info.count > cursor_.left() / point_bytes)
     throwUnreadable(path_,
-                    "it is truncated or damaged: its header promises " +
-                        std::to_string(info.count) + " points of " +
-                        std::to_string(point_bytes) + " bytes, but " +
-                        std::to_string(cursor_.left()) + " bytes follow");
+                    {"truncated_data",
+                     info.count,
+                     "points of " + std::to_string(point_bytes) + " bytes",
+                     cursor_.left()});
   cursor_.skip(info.count * point_bytes);
   if (counts.primitives > 0)
     passPrimitives(counts);

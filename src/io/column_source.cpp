@@ -197,7 +197,8 @@ PartsSource::PartsSource(std::size_t parts,
     if (info_.fields.empty() || info_.count == 0)
       info_ = info;
     else if (info.count > 0 && !haveSameLayout(info.fields, info_.fields))
-      throwUnreadable(name(i), "its fields are not those of the other files");
+      throwUnreadable(name(i),
+                      {"disagreeing_parts", "its fields and those of the other files"});
     info_.count = std::max(info_.count, info.count);
   }
   for (std::uint64_t& end : ends_)

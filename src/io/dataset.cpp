@@ -51,7 +51,7 @@ openRecords(const std::string& path, FileFormat format, const LoadOptions& optio
     return openPlot3d(path);
   case FileFormat::Netcdf:
     if (vtkLibrary().openNetcdf == nullptr)
-      throwUnreadable(path, "this build does not read NetCDF, whose library it lacks");
+      throwUnreadable(path, {"library_missing", "NetCDF", false});
     return vtkLibrary().openNetcdf(path, options);
   default:
     return nullptr;
@@ -118,8 +118,7 @@ checkSavePath(const std::string& path, const std::vector<pcl::PCLPointField>& fi
       std::end(saved_endings))
     io::throwUnwritable(
         path,
-        io::describeEnding(ending) +
-            "; points are written as .pcd, .ply, .vtp, .vtkhdf, .csv or .npz");
+        {"unwritten_ending", "points", ".pcd, .ply, .vtp, .vtkhdf, .csv or .npz"});
   io::checkWritable(path);
   if (ending == ".vtp")
     io::vtkLibrary().checkVtpFields(path, fields);

@@ -67,7 +67,7 @@ FileCursor::fill()
   char* const to = buffer_.data() + end_;
   file_.read(start_ + end_, to, bytes);
   if (content_ == Content::Text && std::memchr(to, 0, bytes))
-    throwUnreadable(path_, "it is not a text file: it contains zero bytes");
+    throwUnreadable(path_, {"not_text_file", 0});
   end_ += bytes;
   return true;
 }
@@ -96,7 +96,8 @@ void
 FileCursor::checkLength(std::size_t bytes) const
 {
   if (bytes > most_line_bytes)
-    throwUnreadable(path_, line_ + 1, "it does not end within 16 MB");
+    throwUnreadable(
+        path_, line_ + 1, {"too_many_parts", "the line", most_line_bytes, "bytes"});
 }
 
 bool

@@ -92,14 +92,14 @@ throwUnknown(const std::string& path, const std::string& ending)
 {
   for (const auto& known : converters)
     if (ending == known.ending)
-      throwUnreadable(path, describeEnding(ending) + "; " + known.way);
+      throwUnreadable(path, {"convertible_ending", ending, known.way});
   const std::string nearest = findSimilar(listLoadedEndings(), ending);
-  throwUnreadable(
-      path,
-      describeEnding(ending) + (nearest.empty() ? "" : ", but " + nearest + " is") +
-          "; the formats are .pcd, .ply, .csv, .txt, .xyz, .dat, "
-          ".tsv, .vtk, .vtp, .vtu, .vts, .las, .npy, .npz, .nc, .bgeo, PLOT3D, Exodus, "
-          "EnSight, OpenFOAM, HDF5 and Gadget");
+  throwUnreadable(path,
+                  {"unknown_ending",
+                   !ending.empty(),
+                   shortenText(ending),
+                   !nearest.empty(),
+                   nearest});
 }
 
 FileFormat
@@ -121,13 +121,6 @@ detectFormat(const std::string& path)
 }
 
 } // namespace
-
-std::string
-describeEnding(const std::string& ending)
-{
-  return ending.empty() ? "its name has no ending"
-                        : "the ending " + quoteText(ending) + " is not known";
-}
 
 bool
 isFileList(const std::string& path)

@@ -2,6 +2,7 @@
 // Reading and writing of files by POSIX calls, whose errors are exact.
 #include "io/files.h"
 
+#include "common/message_texts.h"
 #include "common/numbers.h"
 #include "common/printable.h"
 #include "io/unpacked_file.h"
@@ -21,28 +22,54 @@ namespace {
 
 constexpr std::size_t block_bytes = std::size_t(1) << 20;
 
+/** \param line 0: of none */
+[[noreturn]] void
+throwAbout(const char* verb, const std::string& path, std::size_t line, Message message)
+{
+  message.about = printable(std::string("Cannot ") + verb + " '" + path + "'");
+  message.values.emplace_back("path", path);
+  if (line > 0) {
+    message.about += ", line " + std::to_string(line);
+    message.values.emplace_back("line", line);
+  }
+  for (MessageValue& value : message.values)
+    if (auto* const word = std::get_if<std::string>(&value.value))
+      *word = printable(*word);
+  throw IOError(std::move(message));
+}
+
 } // namespace
 
 void
-throwUnreadable(const std::string& path, const std::string& reason)
+FileReason::nameValues()
 {
-  throw IOError("unreadable",
-                {{"path", printable(path)}, {"reason", printable(reason)}});
+  const auto names = detail::listValues(message.code);
+  for (std::size_t i = 0; i < message.values.size(); ++i)
+    message.values[i].name = names.at(i);
+}
+
+FileReason
+systemError()
+{
+  return {"system_error", std::strerror(errno)};
 }
 
 void
-throwUnreadable(const std::string& path, std::size_t line, const std::string& reason)
+throwUnreadable(const std::string& path, const FileReason& reason)
 {
-  throw IOError(
-      "unreadable_line",
-      {{"path", printable(path)}, {"line", line}, {"reason", printable(reason)}});
+  throwAbout("read", path, 0, reason.message);
 }
 
 void
-throwUnwritable(const std::string& path, const std::string& reason)
+throwUnreadable(const std::string& path, std::size_t line, const FileReason& reason)
 {
-  throw IOError("unwritable",
-                {{"path", printable(path)}, {"reason", printable(reason)}});
+  throwAbout("read", path, line, reason.message);
+}
+
+void
+throwUnwritable(const std::string& path, const FileReason& reason)
+{
+  throwAbout("write", path, 0, reason.message);
 }
 
 std::string
@@ -63,22 +90,22 @@ checkWritable(const std::string& path)
   if (isStandardStream(path))
     return;
   if (isPacked(path))
-    throwUnwritable(path, "packed files are read, but not written");
+    throwUnwritable(path, "packed_output");
   std::error_code error, ignored;
   if (fs::is_directory(path, error))
-    throwUnwritable(path, "it is a directory");
+    throwUnwritable(path, "is_directory");
   if (error == std::errc::too_many_symbolic_link_levels)
-    throwUnwritable(path, error.message());
+    throwUnwritable(path, {"system_error", error.message()});
   fs::path folder = fs::path(resolveLinks(path)).parent_path();
   if (folder.empty())
     folder = ".";
   const fs::file_status status = fs::status(folder, ignored);
   if (!fs::exists(status))
-    throwUnwritable(path, "there is no folder '" + folder.string() + "'");
+    throwUnwritable(path, {"no_folder", folder.string()});
   if (!fs::is_directory(status))
-    throwUnwritable(path, "'" + folder.string() + "' is not a folder");
+    throwUnwritable(path, {"not_a_folder", folder.string()});
   if (::access(folder.c_str(), W_OK | X_OK) != 0)
-    throwUnwritable(path, std::strerror(errno));
+    throwUnwritable(path, systemError());
 }
 
 InputFile::InputFile(const std::string& path, Packing packing)
@@ -93,17 +120,14 @@ InputFile::InputFile(const std::string& path, Packing packing)
   }
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0)
-    throw errno == ENOENT
-        ? IOError("no_such_file", {{"path", printable(path)}})
-        : IOError("unreadable",
-                  {{"path", printable(path)}, {"reason", std::strerror(errno)}});
+    throwUnreadable(path, errno == ENOENT ? "no_such_file" : systemError());
   if (S_ISDIR(status.st_mode))
-    throwUnreadable(path, "it is a directory");
+    throwUnreadable(path, "is_directory");
   if (!S_ISREG(status.st_mode))
-    throwUnreadable(path, "it is not a regular file");
+    throwUnreadable(path, "not_regular_file");
   descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor_ < 0)
-    throwUnreadable(path, std::strerror(errno));
+    throwUnreadable(path, systemError());
   takeSize();
   if (packing == Packing::Keep ||
       !(isPacked(path) || isPackedInside(path, descriptor_)))
@@ -131,7 +155,7 @@ InputFile::takeSize()
   if (size_ > 0)
     return;
   ::close(descriptor_); // the constructor fails
-  throwUnreadable(path_, is_known ? "the file is empty" : std::strerror(errno));
+  throwUnreadable(path_, is_known ? "empty_file" : systemError());
 }
 
 InputFile::~InputFile()
@@ -148,9 +172,9 @@ InputFile::read(std::uint64_t offset, void* bytes, std::size_t count) const
     if (got < 0 && errno == EINTR)
       continue;
     if (got < 0)
-      throwUnreadable(path_, std::strerror(errno));
+      throwUnreadable(path_, systemError());
     if (got == 0)
-      throwUnreadable(path_, "the file became shorter while it was read");
+      throwUnreadable(path_, "shortened_file");
     out += got;
     offset += static_cast<std::uint64_t>(got);
     count -= static_cast<std::size_t>(got);
@@ -170,7 +194,7 @@ OutputFile::OutputFile(const std::string& path, std::string name)
     , descriptor_(::open(path.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC))
 {
   if (descriptor_ < 0)
-    throwUnwritable(name_, std::strerror(errno));
+    throwUnwritable(name_, systemError());
 }
 
 OutputFile::~OutputFile()
@@ -195,7 +219,7 @@ OutputFile::write(const void* bytes, std::size_t count)
       if (done < 0 && errno == EINTR)
         continue;
       if (done < 0)
-        throwUnwritable(name_, std::strerror(errno));
+        throwUnwritable(name_, systemError());
       from += done;
       left -= static_cast<std::size_t>(done);
     }
@@ -212,7 +236,7 @@ OutputFile::close()
   const int descriptor = descriptor_;
   descriptor_ = -1;
   if (::close(descriptor) != 0)
-    throwUnwritable(name_, std::strerror(errno));
+    throwUnwritable(name_, systemError());
 }
 
 bool

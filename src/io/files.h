@@ -20,25 +20,45 @@ namespace io {
 /** \brief Bytes that deflate makes of one at most: zeros. */
 constexpr std::uint64_t deflate_expansion = 1032;
 
-/** \throws IOError "Cannot read 'path': reason." */
-[[noreturn]] PCL_UVOL_EXPORTS void
-throwUnreadable(const std::string& path, const std::string& reason);
+/** \brief Why a file cannot be read or written. */
+struct PCL_UVOL_EXPORTS FileReason {
+  /** \param code row of file_error_texts.cpp
+   * \param values what its text holds, in the order in which the text names it */
+  template <typename... Values>
+  FileReason(const char* code, const Values&... values)
+      : FileReason(Message(code, {MessageValue("", values)...}))
+  {
+    nameValues();
+  }
+  /** \brief A message of what the file is read for. */
+  FileReason(Message other)
+      : message(std::move(other))
+  {
+  }
 
-/** \throws IOError "Cannot read 'path', line n: reason." */
-[[noreturn]] PCL_UVOL_EXPORTS void
-throwUnreadable(const std::string& path, std::size_t line, const std::string& reason);
+  Message message;
 
-/** \throws IOError "Cannot write 'path': reason." */
-[[noreturn]] PCL_UVOL_EXPORTS void
-throwUnwritable(const std::string& path, const std::string& reason);
+private:
+  void
+  nameValues();
+};
 
-/** \brief A sentence as a part of another one. */
-inline std::string
-withoutDot(const std::string& sentence)
-{
-  const bool has_dot = !sentence.empty() && sentence.back() == '.';
-  return has_dot ? sentence.substr(0, sentence.size() - 1) : sentence;
-}
+/** \brief What the system says of its last error. */
+PCL_UVOL_EXPORTS FileReason
+systemError();
+
+/** \throws IOError "Cannot read 'path': reason", with the code of the reason and the
+ * path among its values */
+[[noreturn]] PCL_UVOL_EXPORTS void
+throwUnreadable(const std::string& path, const FileReason& reason);
+
+/** \throws IOError "Cannot read 'path', line n: reason" */
+[[noreturn]] PCL_UVOL_EXPORTS void
+throwUnreadable(const std::string& path, std::size_t line, const FileReason& reason);
+
+/** \throws IOError "Cannot write 'path': reason" */
+[[noreturn]] PCL_UVOL_EXPORTS void
+throwUnwritable(const std::string& path, const FileReason& reason);
 
 /** \brief Call what reads a file; numbers it cannot take and a lack of memory are
  * errors of the file.
@@ -51,13 +71,13 @@ reading(const std::string& path, const Reader& read)
     return read();
   }
   catch (const InvalidArgument& error) {
-    throwUnreadable(path, withoutDot(error.message()));
+    throwUnreadable(path, error.asMessage());
   }
   catch (const std::bad_alloc&) {
-    throwUnreadable(path, "there is not enough memory for it");
+    throwUnreadable(path, "too_large_for_memory");
   }
   catch (const std::length_error&) { // of a vector longer than any memory
-    throwUnreadable(path, "there is not enough memory for it");
+    throwUnreadable(path, "too_large_for_memory");
   }
 }
 

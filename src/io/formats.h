@@ -53,10 +53,6 @@ PCL_UVOL_EXPORTS std::vector<std::string>
 listSavedEndings();
 /** @} */
 
-/** \brief "the ending '.doc' is not known". */
-std::string
-describeEnding(const std::string& ending);
-
 /** \brief The points of a file as records.
  * \return null for a file that has to be read whole
  * \throws IOError */

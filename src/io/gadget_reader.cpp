@@ -128,9 +128,8 @@ measureRecord(const InputFile& file,
        bytes += std::uint64_t(1) << 32)
     if (markerAt(file, marker_offset + 4 + bytes, swapped) == low)
       return {"", marker_offset + 4, bytes};
-  throwUnreadable(path,
-                  "it is truncated or damaged: the record at byte " +
-                      std::to_string(marker_offset) + " has no end");
+  throwUnreadable(
+      path, {"truncated_part", "the record at byte " + std::to_string(marker_offset)});
 }
 
 /** Labels of format 1, by the order of the blocks. */
@@ -147,14 +146,14 @@ listBlocks(const InputFile& file,
   const std::uint64_t start = header_bytes + (layout.has_labels ? 24 : 8);
   for (std::uint64_t at = start; at < file.getSize();) {
     if (file.getSize() - at < 8)
-      throwUnreadable(path, "it is truncated or damaged: it ends within a record");
+      throwUnreadable(path, {"truncated_part", "a record"});
     std::string label;
     if (layout.has_labels) {
       const Block name = measureRecord(file, path, at, layout.swapped);
       if (name.bytes != 8 || file.getSize() - at < 24)
-        throwUnreadable(path,
-                        "the record at byte " + std::to_string(at) +
-                            " is not the label of a block");
+        throwUnreadable(
+            path,
+            {"invalid_part", "the label of the block at byte " + std::to_string(at)});
       label.resize(4);
       file.read(name.offset, label.data(), label.size());
       label.erase(std::find_if(label.begin(),
@@ -312,13 +311,14 @@ SnapshotFile::open(std::vector<Message> notes)
   for (const Block& block : listBlocks(*file_, path_, layout_, has_masses))
     if (!addBlock(block)) {
       if (block.label == "POS")
-        throwUnreadable(path_,
-                        "it is damaged: its positions have " +
-                            std::to_string(block.bytes) + " bytes");
+        throwUnreadable(
+            path_,
+            {"invalid_part",
+             "the block of positions with " + std::to_string(block.bytes) + " bytes"});
       notes.push_back({"unfitting_block", {{"block", shortenText(block.label)}}});
     }
   if (header_.here[kind_] > 0 && columns_.empty())
-    throwUnreadable(path_, "it is truncated or damaged: it has no block of positions");
+    throwUnreadable(path_, {"missing_part", "the block of positions"});
   if (header_.masses[kind_] != 0.0)
     columns_.push_back(
         {{"MASS"}, Type::FLOAT64, 1, makeConstant(header_.masses[kind_])});
@@ -340,8 +340,7 @@ openGadget(const std::string& path, const LoadOptions& options)
   const InputFile file(path);
   const auto layout = findLayout(file);
   if (!layout)
-    throwUnreadable(path,
-                    "it is not a Gadget snapshot: it does not begin with a header");
+    throwUnreadable(path, {"wrong_start", "a Gadget snapshot", "a header"});
   const Header header = readHeader(file, *layout);
   std::vector<Message> notes;
   const std::vector<std::string> parts = listSnapshotFiles(path, header.files);

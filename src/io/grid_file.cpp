@@ -23,7 +23,7 @@ void
 checkGridPath(const std::string& path)
 {
   if (io::getEnding(path) != ".vti")
-    io::throwUnwritable(path, "grids are written as .vti");
+    io::throwUnwritable(path, {"unwritten_ending", "grids", ".vti"});
   io::checkWritable(path);
 }
 

@@ -150,7 +150,7 @@ std::string
 Hdf5Writer::makeMessage(std::uint8_t type, const std::string& body) const
 {
   if (body.size() > UINT16_MAX)
-    throwUnwritable(path_, "a name in it is longer than HDF5 allows");
+    throwUnwritable(path_, "long_hdf5_name");
   std::string message;
   message += static_cast<char>(type);
   appendLittle(message, static_cast<std::uint16_t>(body.size()));

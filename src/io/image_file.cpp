@@ -122,7 +122,7 @@ void
 checkPngPath(const std::string& path)
 {
   if (io::getEnding(path) != ".png")
-    io::throwUnwritable(path, "pictures are written as .png");
+    io::throwUnwritable(path, {"unwritten_ending", "images", ".png"});
   io::checkWritable(path);
 }
 

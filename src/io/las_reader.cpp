@@ -222,23 +222,22 @@ readHeader(const InputFile& file, const std::string& path)
 {
   const std::string bytes = file.head(long_header_bytes);
   if (bytes.rfind("LASF", 0) != 0)
-    throwUnreadable(path, "it is not a LAS file: it does not begin with 'LASF'");
+    throwUnreadable(path, {"wrong_start", "a LAS file", "'LASF'"});
   if (bytes.size() < las_header_bytes)
-    throwUnreadable(path, "it is truncated: its header is not complete");
+    throwUnreadable(path, {"truncated_part", "its header"});
   const auto format = numberAt<std::uint8_t>(bytes, 104);
   const auto minor = numberAt<std::uint8_t>(bytes, 25);
   if (format & 0xc0)
-    throwUnreadable(path,
-                    "its points are packed (LAZ); laszip -i in.laz -o out.las "
-                    "unpacks them");
+    throwUnreadable(path, "packed_points");
   if (numberAt<std::uint8_t>(bytes, 24) != 1 || minor > 4 ||
       format >= format_bytes.size())
     throwUnreadable(path,
-                    "its points have the format " + std::to_string(format) +
-                        " of LAS " + std::to_string(numberAt<std::uint8_t>(bytes, 24)) +
-                        '.' + std::to_string(minor) +
-                        "; formats 0 to 10 of LAS 1.0 to 1.4 are "
-                        "read");
+                    {"unsupported_value",
+                     "the format of its points",
+                     shortenText(std::to_string(format) + " of LAS " +
+                                 std::to_string(numberAt<std::uint8_t>(bytes, 24)) +
+                                 '.' + std::to_string(minor)),
+                     "formats 0 to 10 of LAS 1.0 to 1.4"});
   LasHeader header;
   header.format = format;
   header.point_bytes = numberAt<std::uint16_t>(bytes, 105);
@@ -248,7 +247,7 @@ readHeader(const InputFile& file, const std::string& path)
   header.points = numberAt<std::uint32_t>(bytes, 107);
   if (minor == 4) {
     if (bytes.size() < long_header_bytes)
-      throwUnreadable(path, "it is truncated: its header is not complete");
+      throwUnreadable(path, {"truncated_part", "its header"});
     header.points = numberAt<std::uint64_t>(bytes, 247);
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -257,15 +256,14 @@ readHeader(const InputFile& file, const std::string& path)
   }
   if (header.point_bytes < format_bytes[format])
     throwUnreadable(path,
-                    "it is damaged: points of format " + std::to_string(format) +
-                        " need " + std::to_string(format_bytes[format]) +
-                        " bytes, but have " + std::to_string(header.point_bytes));
+                    {"wrong_count",
+                     "a point of format " + std::to_string(format),
+                     header.point_bytes,
+                     "bytes",
+                     std::to_string(format_bytes[format]) + " or more"});
   if (header.offset > file.getSize() ||
       header.points > (file.getSize() - header.offset) / header.point_bytes)
-    throwUnreadable(path,
-                    "it is truncated or damaged: its header promises " +
-                        std::to_string(header.points) + " points, but the file has " +
-                        std::to_string(file.getSize()) + " bytes");
+    throwUnreadable(path, {"truncated_data", header.points, "points", file.getSize()});
   return header;
 }
 

@@ -85,7 +85,7 @@ public:
       , descriptor_(::open(path.c_str(), O_WRONLY | O_CLOEXEC))
   {
     if (descriptor_ < 0)
-      io::throwUnwritable(name_, std::strerror(errno));
+      io::throwUnwritable(name_, io::systemError());
   }
   PlacedFile(const PlacedFile&) = delete;
   PlacedFile&
@@ -105,7 +105,7 @@ public:
       if (done < 0 && errno == EINTR)
         continue;
       if (done < 0)
-        io::throwUnwritable(name_, std::strerror(errno));
+        io::throwUnwritable(name_, io::systemError());
       from += done;
       offset += static_cast<std::uint64_t>(done);
       count -= static_cast<std::uint64_t>(done);
@@ -354,7 +354,8 @@ std::vector<std::string>
 latticeFiles(const std::string& path, const std::vector<LatticeArray>& arrays)
 {
   if (!isLatticeFile(path))
-    io::throwUnwritable(path, "grids are written as .vti, .vts, .nrrd or .mha");
+    io::throwUnwritable(path,
+                        {"unwritten_ending", "grids", ".vti, .vts, .nrrd or .mha"});
   const std::string ending = io::getEnding(path);
   std::vector<std::string> paths{path};
   if (holdsOneArray(path))

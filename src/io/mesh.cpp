@@ -36,7 +36,8 @@ readMesh(const std::string& path)
     return {readWhole(vtkLibrary().openHdf5(path, {}), {}),
             vtkLibrary().readVtkHdfTriangles(path)};
   if (InputFile(path).head(3) != "ply")
-    throwUnreadable(path, "it is not a .ply, .vtp, .vtkhdf, .obj, .off or .stl mesh");
+    throwUnreadable(
+        path, {"other_ending", "meshes", ".ply, .vtp, .vtkhdf, .obj, .off or .stl"});
   return readPlyMesh(path);
 }
 
@@ -49,7 +50,7 @@ loadMesh(const std::string& path)
   std::vector<Triangle> triangles;
   const Dataset vertices = loadMesh(path, triangles);
   if (triangles.empty())
-    io::throwUnreadable(path, "it has no faces");
+    io::throwUnreadable(path, {"nothing_inside", "faces"});
   const CloudView cloud = io::reading(path, [&] { return viewOf(vertices.cloud); });
   Mesh mesh;
   mesh.origin = vertices.origin;
@@ -102,7 +103,8 @@ checkMeshPath(const std::string& path)
 {
   if (!isMeshPath(path))
     io::throwUnwritable(
-        path, "meshes are written as .ply, .vtp, .vtkhdf, .obj, .off or .stl");
+        path,
+        {"unwritten_ending", "meshes", ".ply, .vtp, .vtkhdf, .obj, .off or .stl"});
   io::checkWritable(path);
 }
 

@@ -37,7 +37,7 @@ public:
   addVertex(const Corner& place)
   {
     if (countVertices() == std::numeric_limits<std::uint32_t>::max())
-      throwUnreadable(path_, "it has more vertices than can be numbered");
+      throwUnreadable(path_, {"uncountable", "vertices"});
     xyz_.insert(xyz_.end(), place.begin(), place.end());
   }
 
@@ -62,7 +62,7 @@ public:
     for (const Triangle& triangle : triangles_)
       for (const std::uint32_t vertex : triangle)
         if (vertex >= countVertices())
-          throwUnreadable(path_, "a face names a vertex that is not there");
+          throwUnreadable(path_, {"missing_target", "a face", "a vertex"});
     LoadedMesh mesh;
     mesh.triangles = std::move(triangles_);
     mesh.vertices.double_coordinates = true;
@@ -108,7 +108,7 @@ public:
   }
 
   [[noreturn]] void
-  fail(const std::string& reason) const
+  fail(const FileReason& reason) const
   {
     throwUnreadable(path_, cursor_.tell().line, reason);
   }
@@ -119,10 +119,10 @@ public:
   {
     Corner numbers{};
     if (words.size() < first + 3)
-      fail("it has fewer than three coordinates");
+      fail({"incomplete_entry", "a corner", "three coordinates"});
     for (std::size_t i = 0; i < 3; ++i)
       if (!parseNumber(words[first + i], numbers[i]))
-        fail(quoteText(words[first + i]) + " is not a number");
+        fail({"unexpected_word", shortenText(words[first + i]), "a number"});
     return numbers;
   }
 
@@ -131,7 +131,7 @@ public:
   {
     std::uint64_t count = 0;
     if (!parseCount(word, count))
-      fail(quoteText(word) + " is not a number of vertices or faces");
+      fail({"unexpected_word", shortenText(word), "a number of vertices or faces"});
     return count;
   }
 
@@ -181,7 +181,7 @@ private:
                 has_normal ? indexIn(word.substr(last + 1), normals_.size()) : none);
     }
     if (corners_.size() < 3)
-      text_.fail("a face has fewer than three corners");
+      text_.fail({"incomplete_entry", "a face", "at least three corners"});
     builder_.addPolygon(corners_);
   }
 
@@ -193,7 +193,8 @@ private:
     std::uint64_t number = 0;
     if (!parseCount(is_backwards ? word.substr(1) : word, number) || number == 0 ||
         number >= none || (is_backwards && number > count))
-      text_.fail(quoteText(word) + " is not the number of a vertex or normal");
+      text_.fail(
+          {"unexpected_word", shortenText(word), "the number of a vertex or normal"});
     return static_cast<std::uint32_t>(is_backwards ? count - number : number - 1);
   }
 
@@ -222,7 +223,7 @@ private:
       if (normal == none) // no face has the vertex
         continue;
       if (normal >= normals_.size())
-        text_.fail("a face names a normal that is not there");
+        text_.fail({"missing_target", "a face", "a normal"});
       for (std::size_t axis = 0; axis < 3; ++axis)
         numbers[3 * vertex + axis] = static_cast<float>(normals_[normal][axis]);
     }
@@ -294,7 +295,7 @@ checkFinite(const std::string& path, const Corner& place)
 {
   for (const double coordinate : place)
     if (!std::isfinite(coordinate))
-      throwUnreadable(path, "a corner of a triangle is not finite");
+      throwUnreadable(path, {"invalid_part", "a corner of a triangle"});
 }
 
 LoadedMesh
@@ -309,10 +310,7 @@ readBinaryStl(const std::string& path)
   for (std::uint32_t i = 0; i < count; ++i) {
     const char* const bytes = cursor.take(stl_triangle);
     if (bytes == nullptr)
-      throwUnreadable(path,
-                      "it is truncated or no STL: it promises " +
-                          std::to_string(count) + " triangles and has " +
-                          std::to_string(i));
+      throwUnreadable(path, {"truncated_rows", count, "triangles", i});
     std::array<float, 12> numbers; // the normal comes first
     std::memcpy(numbers.data(), bytes, sizeof(numbers));
     std::vector<std::uint32_t> corners;
@@ -344,14 +342,13 @@ readTextStl(const std::string& path)
     }
     else if (words[0] == "endfacet") {
       if (corners.size() != 3)
-        text.fail("a facet has " + std::to_string(corners.size()) +
-                  " corners instead of three");
+        text.fail({"wrong_count", "a facet", corners.size(), "corners", 3});
       builder.addPolygon(corners);
       corners.clear();
     }
   }
   if (!has_end)
-    throwUnreadable(path, "it is truncated or no STL: it does not end with endsolid");
+    throwUnreadable(path, {"missing_part", "endsolid at its end"});
   return builder.build();
 }
 
@@ -369,18 +366,18 @@ readOff(const std::string& path)
   MeshText text(path);
   Words words;
   if (!text.next(words) || (words[0] != "OFF" && words[0] != "COFF"))
-    throwUnreadable(path, "it does not begin with OFF");
+    throwUnreadable(path, {"wrong_start", "an OFF file", "OFF"});
   words.erase(words.begin()); // counts may follow in the same line
   if (words.empty() && !text.next(words))
-    throwUnreadable(path, "it has no vertices");
+    throwUnreadable(path, {"nothing_inside", "vertices"});
   if (words.size() < 2)
-    text.fail("there are no numbers of vertices and faces");
+    text.fail({"incomplete_entry", "a header", "the numbers of vertices and faces"});
   const std::uint64_t vertices = text.takeCount(words[0]),
                       faces = text.takeCount(words[1]);
   MeshBuilder builder(path);
   const auto take = [&](const char* what) {
     if (!text.next(words))
-      throwUnreadable(path, std::string("it ends within its ") + what);
+      throwUnreadable(path, {"truncated_part", std::string("its list of ") + what});
   };
   for (std::uint64_t i = 0; i < vertices; ++i) {
     take("vertices");
@@ -391,12 +388,14 @@ readOff(const std::string& path)
     take("faces");
     const std::uint64_t count = text.takeCount(words[0]);
     if (count < 3 || count >= words.size())
-      text.fail("a face has fewer corners than it promises, or than three");
+      text.fail({"incomplete_entry",
+                 "a face",
+                 "at least three corners, and as many as it promises"});
     corners.clear();
     for (std::size_t k = 1; k <= count; ++k) {
       const std::uint64_t corner = text.takeCount(words[k]);
       if (corner >= vertices)
-        text.fail("a face names a vertex that is not there");
+        text.fail({"missing_target", "a face", "a vertex"});
       corners.push_back(static_cast<std::uint32_t>(corner));
     }
     builder.addPolygon(corners);
@@ -418,7 +417,7 @@ countCorners(const std::string& path, const std::vector<double>& ends)
   double begin = 0.0;
   for (const double end : ends) {
     if (!(end >= begin && end <= 0x1p53))
-      throwUnreadable(path, "its cells do not follow one another");
+      throwUnreadable(path, {"disagreeing_parts", "the offsets of its cells"});
     begin = end;
   }
   return static_cast<std::uint64_t>(begin);
@@ -434,7 +433,7 @@ addFans(const std::string& path,
 {
   const auto vertex = [&](std::size_t corner) {
     if (!(corners[corner] >= 0.0 && corners[corner] < static_cast<double>(points)))
-      throwUnreadable(path, "a polygon names a point that is not there");
+      throwUnreadable(path, {"missing_target", "a polygon", "a point"});
     return static_cast<std::uint32_t>(first +
                                       static_cast<std::uint64_t>(corners[corner]));
   };

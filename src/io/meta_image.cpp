@@ -65,7 +65,7 @@ HeaderParser::isTrue(std::string_view value) const
 {
   const std::string lower = lowerCase(value);
   if (lower != "true" && lower != "false" && lower != "1" && lower != "0")
-    throwInLine(quoteText(value) + " is neither True nor False");
+    throwInLine({"unsupported_value", "a truth", shortenText(value), "True and False"});
   return lower == "true" || lower == "1";
 }
 
@@ -74,8 +74,7 @@ HeaderParser::numbersIn(std::size_t count) const
 {
   std::vector<double> numbers(count);
   if (words_.size() != count)
-    throwInLine("there are " + std::to_string(words_.size()) + " numbers where " +
-                std::to_string(count) + " belong");
+    throwInLine({"wrong_count", "the line", words_.size(), "numbers", count});
   for (std::size_t i = 0; i < count; ++i)
     numbers[i] = parseWord(words_[i]);
   return numbers;
@@ -86,7 +85,7 @@ HeaderParser::take(std::string_view key, std::string_view value)
 {
   if (key == "NDims") {
     if (!parseCount(value, dimensions_) || dimensions_ < 2 || dimensions_ > 3)
-      throwInLine("it is not a volume of one number per point in 3-D");
+      throwInLine("not_scalar_volume");
   }
   else if (key == "DimSize") {
     if (words_.size() == 2 && dimensions_ == 2)
@@ -107,12 +106,12 @@ HeaderParser::take(std::string_view key, std::string_view value)
     matrix_ = numbersIn(dimensions_ * dimensions_);
   else if (key == "ElementNumberOfChannels") {
     if (!parseCount(value, channels_) || channels_ != 1)
-      throwInLine("it has " + quoteText(value) + " numbers per point, and one belongs");
+      throwInLine("not_scalar_volume");
   }
   else if (key == "ElementType") {
     data_.datatype = parseDatatype(value);
     if (data_.datatype == 0)
-      throwInLine(quoteText(value) + " is not a number type");
+      throwInLine({"unexpected_word", shortenText(value), "a number type"});
   }
   else if (key == "BinaryData")
     data_.encoding =
@@ -124,7 +123,7 @@ HeaderParser::take(std::string_view key, std::string_view value)
   else if (key == "HeaderSize") {
     data_.at_end = value == "-1";
     if (!data_.at_end && !parseCount(value, data_.skipped_bytes))
-      throwInLine(quoteText(value) + " is not the size of a header");
+      throwInLine({"unexpected_word", shortenText(value), "the size of a header"});
   }
 }
 
@@ -142,7 +141,8 @@ void
 HeaderParser::finish()
 {
   if (!has_sizes_ || data_.datatype == 0)
-    throwUnreadable(path_, "its header lacks NDims, DimSize or ElementType");
+    throwUnreadable(path_,
+                    {"missing_part", "NDims, DimSize or ElementType of its header"});
   if (compressed_)
     data_.encoding = VolumeData::Encoding::Zipped;
   for (std::size_t axis = 0; axis < 3 && !matrix_.empty(); ++axis) {
@@ -167,7 +167,7 @@ HeaderParser::parse()
       continue;
     const std::size_t equals = line.find_first_of("=:");
     if (equals == line.npos)
-      throwInLine("the line does not belong to a MetaImage header");
+      throwInLine({"foreign_line", "a MetaImage header"});
     const std::string key(trimmed(line.substr(0, equals)));
     const std::string value(trimmed(line.substr(equals + 1)));
     splitWords(value, words_);
@@ -175,7 +175,7 @@ HeaderParser::parse()
       return takeNumbers(value);
     take(key, value);
   }
-  throwUnreadable(path_, "its header has no ElementDataFile");
+  throwUnreadable(path_, {"missing_part", "ElementDataFile of its header"});
 }
 
 } // namespace

@@ -92,8 +92,7 @@ ZipWriter::add(const std::string& name,
   const std::uint64_t bytes =
       header.size() + points * columns.size() * datatypeSize(columns[0].datatype);
   if (offset_ + bytes > UINT32_MAX - (1u << 20) || entries_ == UINT16_MAX)
-    throwUnwritable(
-        path_, "a .npz file is limited to 4 GB; .ply and .vtp files can be larger");
+    throwUnwritable(path_, "large_npz");
   const auto for_each_block = [&](const auto& take) {
     take(header);
     for (std::size_t first = 0; first < points; first += block_points)

@@ -77,7 +77,7 @@ NrrdParser::countIn(std::string_view value) const
 {
   std::uint64_t count = 0;
   if (!parseCount(value, count))
-    throwInLine(quoteText(value) + " is not a count");
+    throwInLine({"unexpected_word", shortenText(value), "a count"});
   return count;
 }
 
@@ -99,7 +99,7 @@ NrrdParser::vectorsIn(std::string_view value) const
         start = std::min(comma + 1, inside.size());
       }
       if (value[0] != '(' || end == value.size() || start != inside.size())
-        throwInLine("vectors have three numbers, as in (1,0,0)");
+        throwInLine({"incomplete_entry", "a vector", "three numbers, as in (1,0,0)"});
       ++end;
     }
     vectors.push_back(vector);
@@ -118,8 +118,10 @@ NrrdParser::takeEncoding(const std::string& value)
   else if (value == "txt" || value == "text" || value == "ascii")
     data_.encoding = VolumeData::Encoding::Ascii;
   else
-    throwInLine("the encoding " + quoteText(value) +
-                " is not read; raw, gzip and ascii are");
+    throwInLine({"unsupported_value",
+                 "the encoding",
+                 shortenText(value),
+                 "raw, gzip and ascii"});
 }
 
 void
@@ -128,11 +130,11 @@ NrrdParser::take(const std::string& field, std::string_view value)
   if (field == "type") {
     data_.datatype = parseDatatype(std::string(value));
     if (data_.datatype == 0)
-      throwInLine(quoteText(value) + " is not a number type");
+      throwInLine({"unexpected_word", shortenText(value), "a number type"});
   }
   else if (field == "dimension") {
     if (countIn(value) != 3)
-      throwInLine("it is not a volume of one number per point in 3-D");
+      throwInLine("not_scalar_volume");
   }
   else if (field == "sizes") {
     setDims(path_, words_, volume_);
@@ -165,13 +167,14 @@ void
 NrrdParser::finish()
 {
   if (!has_sizes_ || data_.datatype == 0)
-    throwUnreadable(path_, "its header lacks type or sizes");
+    throwUnreadable(path_, {"missing_part", "type or sizes of its header"});
   const bool has_bytes = data_.encoding != VolumeData::Encoding::Ascii &&
                          data_.datatype != Type::INT8 && data_.datatype != Type::UINT8;
   if (has_bytes && !has_order_)
-    throwUnreadable(path_, "its header does not say which endian its numbers have");
+    throwUnreadable(path_, {"missing_part", "the endian of its numbers"});
   if (data_.at_end && data_.encoding != VolumeData::Encoding::Raw)
-    throwUnreadable(path_, "a byte skip of -1 requires the encoding raw");
+    throwUnreadable(path_,
+                    {"incomplete_entry", "a byte skip of -1", "the encoding raw"});
   for (std::size_t axis = 0; axis < std::min<std::size_t>(3, spacings_.size()); ++axis)
     if (std::isfinite(spacings_[axis]))
       volume_.spacing[axis] = spacings_[axis];
@@ -189,15 +192,13 @@ NrrdParser::parse()
 {
   std::string_view line;
   if (!cursor_.nextLine(line) || line.substr(0, 4) != "NRRD")
-    throwUnreadable(path_,
-                    "it is not a NRRD file: its first line does not begin with "
-                    "'NRRD'");
+    throwUnreadable(path_, {"wrong_start", "a NRRD file", "'NRRD'"});
   while (cursor_.nextLine(line) && !line.empty()) {
     const std::size_t colon = line.find(':');
     if (line[0] == '#' || line.substr(std::min(colon, line.size()), 2) == ":=")
       continue;
     if (colon == line.npos)
-      throwInLine("the line does not belong to a NRRD header");
+      throwInLine({"foreign_line", "a NRRD header"});
     const std::string field = lowerCase(trimmed(line.substr(0, colon)));
     const std::string value(trimmed(line.substr(colon + 1)));
     splitWords(value, words_);

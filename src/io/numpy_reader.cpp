@@ -94,7 +94,7 @@ private:
   [[noreturn]] void
   fail() const
   {
-    throwUnreadable(path_, "its header does not describe a NumPy array");
+    throwUnreadable(path_, {"invalid_part", "the header of an array"});
   }
 
   const std::string& path_;
@@ -170,8 +170,10 @@ NpyHeaderParser::takeType(const std::string& name)
     if (type.size() == 3 && type.compare(1, 2, known.name) == 0)
       return {name, static_cast<std::uint8_t>(known.datatype), 1, type[0] == '>'};
   throwUnreadable(path_,
-                  "the type " + quoteText(type) +
-                      " is not read: allowed are integers and reals with 4 or 8 bytes");
+                  {"unsupported_value",
+                   "the type of a field",
+                   shortenText(type),
+                   "integers and reals with up to 8 bytes"});
 }
 
 void
@@ -196,8 +198,10 @@ NpyHeaderParser::parse(Array& array)
         expect(')');
         if (member.components < 1 || member.components > most_table_components)
           throwUnreadable(path_,
-                          "its field " + quoteText(name) + " has more than " +
-                              std::to_string(most_table_components) + " numbers");
+                          {"too_many_parts",
+                           "its field " + quoteText(name),
+                           most_table_components,
+                           "numbers"});
         array.members.push_back(member);
         take(',');
       }
@@ -224,19 +228,17 @@ readArray(const std::string& path,
 {
   std::array<std::uint8_t, 12> head{};
   if (bytes < head.size())
-    throwUnreadable(path, "it is truncated: the header of an array is not complete");
+    throwUnreadable(path, {"truncated_part", "the header of an array"});
   file->read(start, head.data(), head.size());
   if (std::memcmp(head.data(), "\x93NUMPY", 6) != 0 || head[6] < 1 || head[6] > 3)
-    throwUnreadable(path, "it is not a NumPy array, or its format is newer");
+    throwUnreadable(path, {"not_format", "a NumPy array of format 1 to 3"});
   const bool is_long = head[6] > 1;
   std::uint64_t length = head[8] | std::uint64_t(head[9]) << 8;
   if (is_long)
     length |= std::uint64_t(head[10]) << 16 | std::uint64_t(head[11]) << 24;
   const std::uint64_t begin = is_long ? 12 : 10;
   if (length > most_header_bytes || length > bytes - begin)
-    throwUnreadable(path,
-                    "it is truncated or damaged: the header of an array has " +
-                        std::to_string(length) + " bytes");
+    throwUnreadable(path, {"truncated_part", "the header of an array"});
   std::string text(length, '\0');
   file->read(start + begin, text.data(), text.size());
   Array array;
@@ -255,10 +257,7 @@ readArray(const std::string& path,
     count *= fits ? side : 0;
   }
   if (!fits || count > left / size)
-    throwUnreadable(path,
-                    "it is truncated or damaged: the array " + quoteText(name) +
-                        " is larger than the " + std::to_string(left) +
-                        " bytes that follow");
+    throwUnreadable(path, {"truncated_part", "the array " + quoteText(name)});
   return array;
 }
 
@@ -361,10 +360,7 @@ openTable(const std::string& path, const Array& array)
     return std::make_unique<StructuredSource>(array);
   if (array.shape.size() != 2 || array.shape[1] < 3 ||
       array.shape[1] > most_table_components)
-    throwUnreadable(path,
-                    "points are arrays with a row per point and 3 to " +
-                        std::to_string(most_table_components) +
-                        " columns, x, y and z first, or with named fields");
+    throwUnreadable(path, {"no_point_array", most_table_components});
   std::vector<NamedColumn> columns;
   std::vector<std::string> names = axis_names;
   for (std::uint64_t i = 3; i < array.shape[1]; ++i)
@@ -412,11 +408,9 @@ openNpz(const std::string& path)
     });
   };
   if (positions.empty() && has("x") && has("y") && !has("z"))
-    throw IOError("z_is_missing", {{"path", printable(path)}});
+    throwUnreadable(path, "z_is_missing");
   if (positions.empty())
-    throwUnreadable(path,
-                    "no array of it has a usual name of coordinates (" +
-                        std::string(usual_position_names) + ")");
+    throwUnreadable(path, {"no_position_array", std::string(usual_position_names)});
   std::vector<NamedColumn> columns;
   for (std::size_t i = 0; i < positions.size(); ++i)
     columns.push_back(openColumn(

@@ -95,7 +95,8 @@ PcdHeaderParser::countIn(const Words& words) const
 {
   std::uint64_t value = 0;
   if (words.size() != 2 || !parseCount(words[1], value))
-    throwUnreadable(path_, line_, quoteText(words[0]) + " requires one count");
+    throwUnreadable(
+        path_, line_, {"incomplete_entry", quoteText(words[0]), "one count"});
   return value;
 }
 
@@ -143,11 +144,16 @@ PcdHeaderParser::take(std::string_view line, std::size_t number)
     else if (words.size() == 2 && words[1] == "binary_compressed")
       encoding_ = Encoding::Compressed;
     else
-      throwUnreadable(path_, line_, "DATA must be ascii, binary or binary_compressed");
+      throwUnreadable(path_,
+                      line_,
+                      {"unsupported_value",
+                       "DATA",
+                       shortenText(words.size() > 1 ? words[1] : ""),
+                       "ascii, binary and binary_compressed"});
     return true;
   }
   else if (key != "VERSION" && key != "VIEWPOINT")
-    throwUnreadable(path_, line_, "this is not a line of a PCD header");
+    throwUnreadable(path_, line_, {"foreign_line", "a PCD header"});
   return false;
 }
 
@@ -168,39 +174,41 @@ PcdHeaderParser::finish() const
   if (names_.empty() || sizes_.size() != names_.size() ||
       types_.size() != names_.size() ||
       (!counts_.empty() && counts_.size() != names_.size()))
-    throwUnreadable(path_, "FIELDS, SIZE, TYPE and COUNT of its header do not agree");
+    throwUnreadable(
+        path_, {"disagreeing_parts", "FIELDS, SIZE, TYPE and COUNT of its header"});
   Header header;
   std::uint64_t bytes = 0;
   for (std::size_t i = 0; i < names_.size(); ++i) {
     const std::uint8_t datatype = parseDatatype(types_[i], sizes_[i]);
     if (datatype == 0)
       throwUnreadable(path_,
-                      "the field " + quoteText(names_[i]) + " has the type " +
-                          quoteText(types_[i]) + " of size " + quoteText(sizes_[i]) +
-                          "; allowed are F of 4 and 8, I and U of 1, 2, 4 and 8");
+                      {"unsupported_value",
+                       "the type of the field " + quoteText(names_[i]),
+                       shortenText(types_[i] + " of size " + sizes_[i]),
+                       "F of 4 and 8, I and U of 1, 2, 4 and 8"});
     std::uint64_t count = 1;
     if (!counts_.empty() &&
         (!parseCount(counts_[i], count) || count < 1 || count > most_components))
       throwUnreadable(path_,
-                      "the field " + quoteText(names_[i]) + " has the COUNT " +
-                          quoteText(counts_[i]) + "; allowed is 1 to " +
-                          std::to_string(most_components));
+                      {"unsupported_value",
+                       "COUNT of the field " + quoteText(names_[i]),
+                       shortenText(counts_[i]),
+                       "1 to " + std::to_string(most_components)});
     bytes += count * datatypeSize(datatype);
     if (bytes > most_points)
-      throwUnreadable(path_, "the fields of its header are too large");
+      throwUnreadable(path_, {"uncountable", "bytes per point"});
     appendField(header.info.fields, nameOf(names_[i]), datatype, count);
   }
   const std::uint64_t height = has_height_ ? height_ : 1;
   if (!has_points_ && !has_width_)
-    throwUnreadable(path_, "its header has neither POINTS nor WIDTH");
+    throwUnreadable(path_, {"missing_part", "POINTS or WIDTH of its header"});
   if (has_width_ && height != 0 && width_ > UINT64_MAX / height)
-    throwUnreadable(path_, "WIDTH and HEIGHT of its header are too large");
+    throwUnreadable(path_, {"uncountable", "points"});
   header.info.count = has_points_ ? points_ : width_ * height;
   if (has_width_ && width_ * height != header.info.count)
-    throwUnreadable(path_,
-                    "its header has " + std::to_string(header.info.count) +
-                        " POINTS, but WIDTH " + std::to_string(width_) +
-                        " and HEIGHT " + std::to_string(height));
+    throwUnreadable(
+        path_,
+        {"wrong_count", "its header", header.info.count, "POINTS", width_ * height});
   header.encoding = encoding_;
   header.info.labels = labels_;
   return header;
@@ -217,16 +225,13 @@ readHeader(FileCursor& cursor, const std::string& path)
       header.body = cursor.tell().offset;
       return header;
     }
-  throwUnreadable(path, "its header has no DATA line");
+  throwUnreadable(path, {"missing_part", "the DATA line of its header"});
 }
 
 [[noreturn]] void
 throwTruncated(const std::string& path, std::uint64_t count, std::uint64_t left)
 {
-  throwUnreadable(path,
-                  "it is truncated or damaged: its header promises " +
-                      std::to_string(count) + " points, but only " +
-                      std::to_string(left) + " bytes follow");
+  throwUnreadable(path, {"truncated_data", count, "points", left});
 }
 
 /** Bytes of the packed and of the unpacked points, as far as the file can hold them. */
@@ -244,10 +249,9 @@ compressedSizes(const InputFile& file, const std::string& path, const Header& he
     if (sizes[0] > left - sizeof(sizes) || count > sizes[0] * lzf_expansion / step)
       throwTruncated(path, count, left);
     if (sizes[1] != count * step)
-      throwUnreadable(path,
-                      "its compressed data have " + std::to_string(sizes[1]) +
-                          " bytes, but its header promises " +
-                          std::to_string(count * step));
+      throwUnreadable(
+          path,
+          {"wrong_count", "the compressed body", sizes[1], "bytes", count * step});
   }
   return sizes;
 }
@@ -264,7 +268,7 @@ readCompressed(const InputFile& file, const std::string& path, const Header& hea
   std::vector<std::uint8_t> packed(sizes[0]), unpacked(sizes[1]);
   file.read(header.body + sizeof(sizes), packed.data(), packed.size());
   if (lzf_decompress(packed.data(), sizes[0], unpacked.data(), sizes[1]) != sizes[1])
-    throwUnreadable(path, "its compressed data are damaged");
+    throwUnreadable(path, "damaged_compression");
   const std::uint8_t* from = unpacked.data(); // all of one field, then the next
   for (const auto& field : records.fields) {
     const std::size_t bytes = fieldBytes(field);
@@ -318,10 +322,7 @@ void
 AsciiSource::nextWords()
 {
   if (!cursor_->nextWords(words_))
-    throwUnreadable(path_,
-                    "it is truncated: its header promises " +
-                        std::to_string(info_.count) + " points, but only " +
-                        std::to_string(next_ - 1) + " lines follow");
+    throwUnreadable(path_, {"truncated_rows", info_.count, "points", next_ - 1});
 }
 
 /** Numbers may have commas between them, all of them. */
@@ -350,8 +351,7 @@ AsciiSource::readRecord(std::uint8_t* record)
   if (words_.size() != numbers_)
     throwUnreadable(path_,
                     cursor_->tell().line,
-                    "there are " + std::to_string(words_.size()) + " numbers where " +
-                        std::to_string(numbers_) + " belong");
+                    {"wrong_count", "the line", words_.size(), "numbers", numbers_});
   const auto* word = words_.data();
   for (const auto& field : info_.fields) {
     const std::size_t bytes = datatypeSize(field.datatype);
@@ -359,8 +359,9 @@ AsciiSource::readRecord(std::uint8_t* record)
       if (!parseNumber(*word, field.datatype, record + field.offset + i * bytes))
         throwUnreadable(path_,
                         cursor_->tell().line,
-                        quoteText(*word) + " is not a number for the field " +
-                            describeFields({field}));
+                        {"unexpected_word",
+                         shortenText(*word),
+                         "a number for the field " + describeFields({field})});
   }
 }
 
@@ -368,10 +369,10 @@ void
 AsciiSource::finish()
 {
   if (cursor_->nextWords(words_))
-    throwUnreadable(path_,
-                    cursor_->tell().line,
-                    "it has more than the " + std::to_string(info_.count) +
-                        " points that its header promises");
+    throwUnreadable(
+        path_,
+        cursor_->tell().line,
+        {"too_many_parts", "it", info_.count, "points, which its header promises"});
 }
 
 std::unique_ptr<RecordSource>

@@ -188,8 +188,7 @@ findGrids(const std::string& path, const InputFile& file, Layout& layout)
     return grids;
   }
   throwUnreadable(path,
-                  "it is not a complete, binary PLOT3D grid in three dimensions: no "
-                  "layout of these has its size");
+                  {"not_format", "a complete, binary PLOT3D grid in three dimensions"});
 }
 
 /** A file of grids and the one of their solutions. */
@@ -308,8 +307,9 @@ openPlot3d(const std::string& path)
                     files->solutions.begin(),
                     files->solutions.end(),
                     same))
-      throwUnreadable(solution,
-                      "it is not a PLOT3D solution for the grids of '" + path + "'");
+      throwUnreadable(
+          solution,
+          {"disagreeing_parts", "its size and that of the grids in '" + path + "'"});
   }
   auto source = std::make_unique<PartsSource>(
       files->grids.size(),

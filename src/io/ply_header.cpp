@@ -37,7 +37,7 @@ private:
   takeProperty(const Words& words);
 
   [[noreturn]] void
-  throwInLine(const std::string& reason) const
+  throwInLine(const FileReason& reason) const
   {
     throwUnreadable(path_, cursor_.tell().line, reason);
   }
@@ -51,7 +51,7 @@ void
 PlyHeaderParser::takeProperty(const Words& words)
 {
   if (header_.elements.empty())
-    throwInLine("a property comes before any element");
+    throwInLine({"foreign_line", "an element"});
   PlyProperty property;
   std::size_t type = 1;
   if (words.size() == 5 && words[1] == "list") {
@@ -59,16 +59,19 @@ PlyHeaderParser::takeProperty(const Words& words)
     type = 3;
     if (property.length_type == 0 || property.length_type == Type::FLOAT32 ||
         property.length_type == Type::FLOAT64)
-      throwInLine(quoteText(words[2]) +
-                  " is not a valid type for the length of a list");
+      throwInLine({"unexpected_word",
+                   shortenText(words[2]),
+                   "a valid type for the length of a list"});
   }
   if (words.size() != type + 2)
-    throwInLine("a property needs a type and a name");
+    throwInLine({"incomplete_entry", "a property", "a type and a name"});
   property.datatype = plyDatatype(words[type]);
   property.name = words[type + 1];
   if (property.datatype == 0)
-    throwInLine("the property " + quoteText(property.name) + " has the type " +
-                quoteText(words[type]) + ", which PLY does not have");
+    throwInLine(
+        {"unexpected_word",
+         shortenText(words[type]),
+         "a type of PLY, as the property " + quoteText(property.name) + " requires"});
   header_.elements.back().properties.push_back(property);
 }
 
@@ -81,8 +84,9 @@ PlyHeaderParser::formatIn(const Words& words) const
     return PlyFormat::LittleEndian;
   if (words.size() == 3 && words[1] == "binary_big_endian")
     return PlyFormat::BigEndian;
-  throwInLine("the format is not ascii, binary_little_endian or "
-              "binary_big_endian");
+  throwInLine({"unexpected_word",
+               shortenText(words.size() > 1 ? words[1] : ""),
+               "ascii, binary_little_endian or binary_big_endian"});
 }
 
 void
@@ -99,14 +103,14 @@ PlyHeaderParser::takeLine(std::string_view line, const Words& words)
   else if (words[0] == "element") {
     PlyElement element;
     if (words.size() != 3 || !parseCount(words[2], element.count))
-      throwInLine("an element needs a name and a count");
+      throwInLine({"incomplete_entry", "an element", "a name and a count"});
     element.name = words[1];
     header_.elements.push_back(element);
   }
   else if (words[0] == "property")
     takeProperty(words);
   else
-    throwInLine("the line does not belong to a PLY header");
+    throwInLine({"foreign_line", "a PLY header"});
 }
 
 PlyHeader
@@ -114,7 +118,7 @@ PlyHeaderParser::parse()
 {
   std::string_view line;
   if (!cursor_.nextLine(line) || line != "ply")
-    throwUnreadable(path_, "it is not a PLY file: its first line is not 'ply'");
+    throwUnreadable(path_, {"wrong_start", "a PLY file", "a line 'ply'"});
   Words words;
   while (cursor_.nextLine(line)) {
     splitWords(line, words);
@@ -122,12 +126,12 @@ PlyHeaderParser::parse()
       continue;
     if (words[0] == "end_header") {
       if (header_.format == PlyFormat::None)
-        throwUnreadable(path_, "its header has no format line");
+        throwUnreadable(path_, {"missing_part", "the format line of its header"});
       return std::move(header_);
     }
     takeLine(line, words);
   }
-  throwUnreadable(path_, "its header has no end_header line");
+  throwUnreadable(path_, {"missing_part", "the end_header line of its header"});
 }
 
 } // namespace

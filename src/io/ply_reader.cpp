@@ -24,9 +24,9 @@ using Words = std::vector<std::string_view>;
 throwTruncated(const std::string& path, const PlyElement& element)
 {
   throwUnreadable(path,
-                  "it is truncated or damaged: its header promises " +
-                      std::to_string(element.count) + " of the element " +
-                      quoteText(element.name) + ", but the file ends before");
+                  {"truncated_part",
+                   "the element " + quoteText(element.name) + " of " +
+                       std::to_string(element.count) + " rows"});
 }
 
 /** Before any memory is taken: do that many bytes follow at all? */
@@ -52,8 +52,8 @@ void
 checkLength(const std::string& path, const PlyProperty& property, double length)
 {
   if (length < 0.0)
-    throwUnreadable(path,
-                    "a list " + quoteText(property.name) + " has a negative length");
+    throwUnreadable(
+        path, {"invalid_part", "the length of a list " + quoteText(property.name)});
 }
 
 /** Takes the numbers of an element from a binary body. */
@@ -171,7 +171,7 @@ private:
   void
   skipRecord() override;
   [[noreturn]] void
-  throwInLine(const std::string& reason) const
+  throwInLine(const FileReason& reason) const
   {
     throwUnreadable(path_, cursor_->tell().line, reason);
   }
@@ -194,23 +194,26 @@ PlyAsciiSource::readRecord(std::uint8_t* record)
   std::size_t word = 0;
   for (const auto& property : vertex_.properties) {
     if (word >= words_.size())
-      throwInLine("there are too few numbers");
+      throwInLine({"numbers_unlike_header", true});
     const std::string_view text = words_[word++];
     std::uint64_t length = 0;
     if (property.length_type) {
       if (!parseCount(text, length) || length > words_.size() - word)
-        throwInLine(quoteText(text) + " is not a valid length of the list " +
-                    quoteText(property.name));
+        throwInLine({"unexpected_word",
+                     shortenText(text),
+                     "a valid length of the list " + quoteText(property.name)});
       word += length;
       continue;
     }
     if (!parseNumber(text, property.datatype, record))
-      throwInLine(quoteText(text) + " is not a number for the property " +
-                  property.name + " (" + plyTypeName(property.datatype) + ")");
+      throwInLine({"unexpected_word",
+                   shortenText(text),
+                   "a number for the property " + property.name + " (" +
+                       plyTypeName(property.datatype) + ")"});
     record += datatypeSize(property.datatype);
   }
   if (word != words_.size())
-    throwInLine("there are too many numbers");
+    throwInLine({"numbers_unlike_header", false});
 }
 
 /** Goes behind an element in front of the vertices. */
@@ -291,11 +294,12 @@ FaceReader::takeNumber(std::uint8_t datatype)
   if (!is_text_)
     binary_.take(datatype, bytes);
   else if (word_ == words_.size())
-    throwUnreadable(path_, cursor_.tell().line, "there are too few numbers");
+    throwUnreadable(path_, cursor_.tell().line, {"numbers_unlike_header", true});
   else if (!parseNumber(words_[word_++], datatype, bytes))
-    throwUnreadable(path_,
-                    cursor_.tell().line,
-                    quoteText(words_[word_ - 1]) + " is not a number for a face");
+    throwUnreadable(
+        path_,
+        cursor_.tell().line,
+        {"unexpected_word", shortenText(words_[word_ - 1]), "a number for a face"});
   return FieldComponent{0, datatype}.read(bytes);
 }
 
@@ -313,7 +317,7 @@ FaceReader::takeProperty(const PlyProperty& property)
     if (!corners)
       continue;
     if (!(number >= 0.0 && number < vertices_))
-      throwUnreadable(path_, "a face names a vertex that is not there");
+      throwUnreadable(path_, {"missing_target", "a face", "a vertex"});
     triangle[1] = triangle[2];
     triangle[2] = static_cast<std::uint32_t>(number);
     if (k == 0)
@@ -359,7 +363,7 @@ makeInfo(const std::string& path, const PlyElement& vertex, LabelNames&& labels)
       info.notes.push_back(
           {"list_property", {{"property", shortenText(property.name)}}});
   if (info.fields.empty())
-    throwUnreadable(path, "its vertices have no coordinates");
+    throwUnreadable(path, {"missing_part", "a coordinate of its vertices"});
   renameFields(info.fields, ply_normals, cloud_normals);
   info.labels = std::move(labels);
   return info;
@@ -374,7 +378,7 @@ openPly(const std::string& path)
   PlyHeader header;
   const PlyElement* const vertex = findElement(path, *cursor, "vertex", header);
   if (!vertex)
-    throwUnreadable(path, "it has no element 'vertex'");
+    throwUnreadable(path, {"missing_part", "the element 'vertex'"});
   RecordInfo info = makeInfo(path, *vertex, std::move(header.labels));
   const bool swapped = header.format == PlyFormat::BigEndian;
   if (header.format == PlyFormat::Ascii)

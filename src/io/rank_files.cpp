@@ -30,7 +30,7 @@ matching(const std::string& pattern)
     paths.assign(found.gl_pathv, found.gl_pathv + found.gl_pathc);
   ::globfree(&found);
   if (paths.empty())
-    io::throwUnreadable(pattern, "no file matches");
+    io::throwUnreadable(pattern, "no_matching_file");
   return paths;
 }
 
@@ -433,7 +433,7 @@ void
 checkSavePieces(const std::string& path)
 {
   if (io::getEnding(path) != ".pvtp")
-    io::throwUnwritable(path, "lists of pieces end with .pvtp");
+    io::throwUnwritable(path, {"unwritten_ending", "lists of pieces", ".pvtp"});
   io::checkWritable(path);
 }
 

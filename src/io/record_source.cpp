@@ -36,10 +36,7 @@ void
 throwNoStream(const std::string& path, const std::string& what)
 {
   const InputFile exists(path); // a missing file matters more than its format
-  throwUnreadable(path,
-                  what + " have to be read whole; files that are read in blocks are "
-                         "snapshots, arrays, PCD (ascii or binary, not compressed), "
-                         "PLY and text tables");
+  throwUnreadable(path, {"not_streamable", what});
 }
 
 FixedSource::FixedSource(const std::string& path,

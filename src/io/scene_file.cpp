@@ -45,10 +45,7 @@ readText(const std::string& path)
 {
   const io::InputFile file(path);
   if (file.getSize() > largest_file)
-    io::throwUnreadable(path,
-                        "it has " + std::to_string(file.getSize()) +
-                            " bytes, and a scene has " + std::to_string(largest_file) +
-                            " at most");
+    io::throwUnreadable(path, {"too_many_parts", "the scene", largest_file, "bytes"});
   std::string text = file.head(file.getSize());
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   if (text.compare(0, byte_order_mark.size(), byte_order_mark) == 0)
@@ -60,8 +57,7 @@ readText(const std::string& path)
     io::throwUnreadable(
         path,
         1 + static_cast<std::size_t>(std::count(text.begin(), strange, '\n')),
-        "it is not a text file: it contains a byte of value " +
-            std::to_string(static_cast<unsigned char>(*strange)));
+        {"not_text_file", static_cast<unsigned char>(*strange)});
   return text;
 }
 
@@ -220,7 +216,7 @@ SceneReader::readItem(SceneItem& item)
     (this->*kind.read)(item);
     return;
   }
-  item.fail("unknown word " + quoteText(name) + "; items are " + io::joinWords(names));
+  item.fail({"unknown_word", shortenText(name), "items", io::joinWords(names)});
 }
 
 void
@@ -244,7 +240,7 @@ SceneReader::readCamera(SceneItem& item)
        {"up x y z", [&] { camera.up = item.direction(); }},
        {"fov degrees", [&] { camera.vertical_fov = item.number(field_of_view); }}});
   if (!item.hasOption("eye") || !item.hasOption("at"))
-    io::throwAt(place, "a camera needs 'eye x y z' and 'at x y z'");
+    io::throwAt(place, {"incomplete_entry", "a camera", "'eye x y z' and 'at x y z'"});
   io::callAt(place, [&] { camera.rotation(); });
   scene_.camera = camera;
 }
@@ -278,7 +274,7 @@ SceneReader::readShadows(SceneItem& item)
 {
   const std::string state = item.word("on or off");
   if (state != "on" && state != "off")
-    item.fail(quoteText(state) + " is neither on nor off");
+    item.fail({"unexpected_word", shortenText(state), "on or off"});
   item.finish();
   scene_.settings.shadows = state == "on";
 }
@@ -299,8 +295,8 @@ SceneReader::readLight(SceneItem& item)
   const std::string kind = item.word("point, directional or camera");
   Light light;
   if (kind != "point" && kind != "directional" && kind != "camera")
-    item.fail("unknown word " + quoteText(kind) +
-              "; lights are point, directional and camera");
+    item.fail(
+        {"unknown_word", shortenText(kind), "lights", "point, directional and camera"});
   light.kind = kind == "point" ? Light::Kind::Point : Light::Kind::Directional;
   light.follows_camera = kind == "camera";
   light.position = kind == "point" ? item.point() : item.direction();
@@ -318,8 +314,9 @@ SceneReader::readMaterial(SceneItem& item)
   const std::string name = item.word("the name of a material");
   const ScenePlace place = item.place();
   if (const auto before = materials_.find(name); before != materials_.end())
-    item.fail("the material " + quoteText(name) + " is defined already, at " +
-              before->second.second.text());
+    item.fail(
+        {"repeated_part",
+         "the material " + quoteText(name) + " of " + before->second.second.text()});
   RayMaterial made;
   const auto factor = [&item](double& target) {
     return [&item, &target] { target = item.number(io::not_negative); };
@@ -337,10 +334,7 @@ SceneReader::readMaterial(SceneItem& item)
        {"transparent t", part(made.transparency)},
        {"index n", [&] { made.refractive_index = item.number(io::positive); }}});
   if (made.reflectivity + made.transparency > 1.0)
-    io::throwAt(place,
-                "the material " + quoteText(name) +
-                    " reflects and lets through more than all light: reflect and "
-                    "transparent are 1 together at most");
+    io::throwAt(place, {"bright_material", shortenText(name)});
   materials_[name] = {made, place};
 }
 
@@ -353,9 +347,10 @@ SceneReader::takeMaterial(SceneItem& item) const
   std::vector<std::string> names;
   for (const auto& known : materials_)
     names.push_back(shortenText(known.first));
-  item.fail("unknown material " + quoteText(name) +
-            (names.empty() ? "; none is defined in front of this line"
-                           : "; known ones are " + io::joinWords(names)));
+  item.fail({"unknown_word",
+             shortenText(name),
+             "materials in front of this line",
+             names.empty() ? "none" : io::joinWords(names)});
 }
 
 std::vector<SceneItem::Option>
@@ -394,7 +389,9 @@ colorOptions(SceneItem& item, CloudItem& cloud)
              const double low = item.number(io::any_number);
              const double high = item.number(io::any_number);
              if (low > high)
-               item.fail("the high end of a range of colours is below its low end");
+               item.fail({"incomplete_entry",
+                          "a range of colours",
+                          "a high end above its low end"});
              cloud.look.color_range = {low, high};
            }}};
 }
@@ -429,7 +426,9 @@ SceneReader::readCloud(SceneItem& item)
       (look.color_field.empty() || look.color_field == "rgb" ||
        look.color_field == "rgba"))
     io::throwAt(cloud.place,
-                "colormap and range need 'color FIELD' with a scalar field");
+                {"incomplete_entry",
+                 "the word colormap or range",
+                 "'color FIELD' with a scalar field"});
   clouds_.push_back(std::move(cloud));
 }
 
@@ -468,8 +467,10 @@ SceneReader::readInclude(SceneItem& item)
   constexpr std::size_t most_included = 1000;
   if (++included_ > most_included)
     io::throwAt(place,
-                "more than " + std::to_string(most_included) +
-                    " files are included, many of them again and again");
+                {"too_many_parts",
+                 "the scene",
+                 most_included,
+                 "included files, counted as often as they are named"});
   const auto same = std::find_if(files_.begin(), files_.end(), [&](const auto& file) {
     std::error_code ignored;
     return fs::equivalent(file, path, ignored);
@@ -478,7 +479,7 @@ SceneReader::readInclude(SceneItem& item)
     std::string circle;
     for (auto file = same; file != files_.end(); ++file)
       circle += printable(*file) + " -> ";
-    io::throwAt(place, "a file includes itself: " + circle + printable(path));
+    io::throwAt(place, {"endless_inclusion", circle + printable(path)});
   }
   read(path, text);
 }

@@ -29,10 +29,18 @@ ScenePlace::text() const
 }
 
 void
-throwAt(const ScenePlace& place, const std::string& reason)
+throwAt(const ScenePlace& place, const FileReason& reason)
 {
-  throw IOError("scene_line",
-                {{"place", place.text()}, {"reason", io::withoutDot(reason)}});
+  Message message = reason.message;
+  if (message.about.empty()) { // it is of no other file
+    message.values.emplace_back("path", printable(place.file));
+    message.values.emplace_back("line", place.line);
+    message.values.emplace_back("column", place.column);
+    message.about = place.text();
+  }
+  else
+    message.about = place.text() + ": " + message.about;
+  throw IOError(std::move(message));
 }
 
 std::string
@@ -55,10 +63,7 @@ SceneItem::SceneItem(const ScenePlace& start, std::string_view line)
     : start_(start)
 {
   if (line.size() > longest_line)
-    throwAt(start,
-            "this line has " + std::to_string(line.size()) +
-                " characters, and lines of scenes have " +
-                std::to_string(longest_line) + " at most");
+    throwAt(start, {"too_many_parts", "this line", longest_line, "characters"});
   split(line);
 }
 
@@ -72,12 +77,12 @@ SceneItem::split(std::string_view line)
     if (line[at] == '"') {
       const std::size_t quote = line.find('"', start + 1);
       if (quote == std::string_view::npos)
-        throwAt(placeOf(start + 1), "this quote does not end");
+        throwAt(placeOf(start + 1), "open_quote");
       words_.push_back(
           {std::string(line.substr(start + 1, quote - start - 1)), start + 1});
       at = quote + 1;
       if (at < line.size() && line.find_first_of(" \t\r#", at) != at)
-        throwAt(placeOf(at + 1), "a blank is missing behind the quote");
+        throwAt(placeOf(at + 1), "text_behind_quote");
     }
     else {
       at = std::min(line.find_first_of(" \t\r#", at), line.size());
@@ -97,10 +102,10 @@ const std::string&
 SceneItem::word(const std::string& what)
 {
   if (atEnd())
-    throwAt(placeOf(end_), what + " is missing; write '" + form_ + "'");
+    throwAt(placeOf(end_), {"missing_word", what, form_});
   const std::string& text = words_[taken_++].text;
   if (text.empty())
-    fail("there is nothing between the quotes, and " + what + " is missing");
+    fail({"missing_word", what, form_});
   return text;
 }
 
@@ -122,10 +127,13 @@ SceneItem::number(const NumberRange& range)
   const bool is_inside = range.has_ends ? value >= range.low && value <= range.high
                                         : value > range.low && value < range.high;
   if (!is_number || !is_inside)
-    fail(quoteText(text) + " is not " + range.text + "; write '" + form_ + "'");
+    fail({"unexpected_word",
+          shortenText(text),
+          std::string(range.text) + "; write '" + form_ + "'"});
   if (std::abs(value) > largest_number)
-    fail(quoteText(text) +
-         " is farther from 0 than 1e30, the largest number of a scene");
+    fail({"unexpected_word",
+          shortenText(text),
+          "a number within 1e30, the largest of a scene"});
   return value;
 }
 
@@ -138,7 +146,7 @@ SceneItem::whole(int low, int high)
   std::uint64_t value = 0;
   if (!parseCount(text, value) || value < static_cast<std::uint64_t>(low) ||
       value > static_cast<std::uint64_t>(high))
-    fail(quoteText(text) + " is not " + what + "; write '" + form_ + "'");
+    fail({"unexpected_word", shortenText(text), what + "; write '" + form_ + "'"});
   return static_cast<int>(value);
 }
 
@@ -157,8 +165,9 @@ SceneItem::direction()
   const std::size_t first = taken_;
   Eigen::Vector3d direction = point();
   if (direction.norm() < shortest_direction)
-    throwAt(placeOf(words_[first].column),
-            "a direction has a length above 0; write '" + form_ + "'");
+    throwAt(
+        placeOf(words_[first].column),
+        {"incomplete_entry", "a direction", "a length above 0; write '" + form_ + "'"});
   return direction;
 }
 
@@ -186,14 +195,13 @@ SceneItem::options(const std::vector<Option>& known,
       forms.reserve(known.size());
       for (const Option& other : known)
         forms.push_back(other.form);
-      fail("unknown word " + quoteText(name) + "; options of " + item + " are " +
-           joinWords(forms));
+      fail({"unknown_word", shortenText(name), "options of " + item, joinWords(forms)});
     }
     if (hasOption(name))
-      fail("'" + name + "' is given twice");
+      fail({"repeated_part", "'" + name + "'"});
     for (const auto& [one, other] : exclusive)
       if ((name == one && hasOption(other)) || (name == other && hasOption(one)))
-        fail("'" + std::string(one) + "' and '" + other + "' do not go together");
+        fail({"exclusive_words", one, other});
     option_names_.push_back(name);
     form_ = option->form;
     option->take();
@@ -213,7 +221,7 @@ SceneItem::finish()
   if (atEnd())
     return;
   const std::string& text = words_[taken_++].text;
-  fail("unexpected word " + quoteText(text) + "; write '" + form_ + "'");
+  fail({"unexpected_word", shortenText(text), "expected here; write '" + form_ + "'"});
 }
 
 } // namespace io

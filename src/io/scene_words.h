@@ -2,6 +2,7 @@
 // The words of a scene file, one item per line, and errors that tell their place.
 #pragma once
 
+#include "io/files.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/render/color_map.h>
 
@@ -28,9 +29,9 @@ struct ScenePlace {
   text() const;
 };
 
-/** \throws IOError "scene.txt:3:12: reason." */
+/** \throws IOError "scene.txt:3:12: reason" */
 [[noreturn]] void
-throwAt(const ScenePlace& place, const std::string& reason);
+throwAt(const ScenePlace& place, const FileReason& reason);
 
 /** \brief Call a function whose exceptions become IOErrors with that place in front. */
 template <typename Function>
@@ -41,7 +42,7 @@ callAt(const ScenePlace& place, Function&& function)
     return function();
   }
   catch (const Exception& error) {
-    throwAt(place, error.message());
+    throwAt(place, error.asMessage());
   }
 }
 
@@ -93,7 +94,7 @@ public:
 
   /** \brief Tell what is wrong with the word that was taken last. */
   [[noreturn]] void
-  fail(const std::string& reason) const
+  fail(const FileReason& reason) const
   {
     throwAt(place(), reason);
   }

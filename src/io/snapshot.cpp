@@ -54,10 +54,9 @@ chooseKind(const std::string& path,
   };
   const auto found = std::find_if(kinds.begin(), kinds.end(), is_meant);
   if (found == kinds.end())
-    throwUnreadable(path,
-                    (chosen.empty() ? std::string("it contains no particles")
-                                    : "it contains no particles " + quoteText(chosen)) +
-                        (chosen.empty() ? "" : "; there are " + describeKinds(kinds)));
+    throwUnreadable(
+        path,
+        {"no_particles", !chosen.empty(), shortenText(chosen), describeKinds(kinds)});
   const auto filled = std::count_if(
       kinds.begin(), kinds.end(), [](const ParticleKind& k) { return k.count > 0; });
   if (chosen.empty() && filled > 1)
@@ -78,11 +77,7 @@ listSnapshotFiles(const std::string& path, std::size_t count)
   const std::string number = stem.extension().string();
   std::uint64_t own = 0;
   if (number.empty() || !parseCount(number.substr(1), own))
-    throwUnreadable(path,
-                    "it is one of " + std::to_string(count) +
-                        " files of a snapshot, whose names should differ in a number, "
-                        "as in snap.0" +
-                        ending.string());
+    throwUnreadable(path, {"snapshot_without_number", count, ending.string()});
   std::vector<std::string> files;
   for (std::size_t i = 0; i < count; ++i) {
     files.push_back(fs::path(stem)
@@ -91,9 +86,7 @@ listSnapshotFiles(const std::string& path, std::size_t count)
                         .string());
     std::error_code ignored; // of a name that is too long
     if (!fs::exists(files.back(), ignored))
-      throwUnreadable(path,
-                      "of the " + std::to_string(count) + " files of its snapshot '" +
-                          files.back() + "' is not there");
+      throwUnreadable(path, {"no_required_file", files.back()});
   }
   return files;
 }

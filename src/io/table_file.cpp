@@ -41,7 +41,7 @@ void
 checkTablePath(const std::string& path)
 {
   if (io::getEnding(path) != ".csv")
-    io::throwUnwritable(path, "tables are written as .csv");
+    io::throwUnwritable(path, {"unwritten_ending", "tables", ".csv"});
   io::checkWritable(path);
 }
 

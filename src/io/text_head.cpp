@@ -92,7 +92,7 @@ public:
   read()
   {
     if (contents_.empty())
-      throwUnreadable(path_, "it has no header line");
+      throwUnreadable(path_, {"missing_part", "its header line"});
     if (!readTecplot())
       readTable();
     return std::move(head_);
@@ -273,7 +273,7 @@ private:
       first = 1;
       setSeparator(separator->empty() ? '\t' : (*separator)[0]);
       if (contents_.size() == 1)
-        throwUnreadable(path_, "it has no header line");
+        throwUnreadable(path_, {"missing_part", "its header line"});
     }
     else
       findSeparator(textAt(0));
@@ -432,7 +432,7 @@ private:
       return false;
     const std::string of_zone = bare.substr(std::min(zone, bare.size()));
     if (of_zone.find("block") != std::string::npos)
-      throw IOError("tecplot_blocks", {{"path", printable(path_)}});
+      throwUnreadable(path_, "tecplot_blocks");
     TextHead head;
     const std::string listed = header.substr(variables, zone - variables);
     for (std::size_t at = listed.find('"'); at != std::string::npos;

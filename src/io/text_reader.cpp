@@ -161,7 +161,7 @@ TextTable::findCoordinates()
       return chosen;
     }
     catch (const InvalidArgument& error) {
-      throwUnreadable(path_, error.message());
+      throwUnreadable(path_, error.asMessage());
     }
   }
   if (const auto found = recognizeCoordinates(names, options_.map.has_value())) {
@@ -173,19 +173,15 @@ TextTable::findCoordinates()
     return found->columns;
   }
   if (columns_.size() < 3)
-    throwUnreadable(path_,
-                    "it has " + std::to_string(columns_.size()) +
-                        " columns, and coordinates need three, separated by "
-                        "comma, semicolon, tab or blanks");
+    throwUnreadable(path_, {"few_columns", columns_.size()});
   if (const auto named = findPossibleCoordinate(names))
-    throw IOError("some_coordinates_named",
-                  {{"path", printable(path_)}, {"column", shortenText(*named)}});
+    throwUnreadable(path_, {"some_coordinates_named", shortenText(*named)});
   std::vector<std::size_t> guess;
   for (std::size_t i = 0; i < names.size() && guess.size() < 3; ++i)
     if (!saysTime(names[i]))
       guess.push_back(i);
   if (guess.size() < 3)
-    throw IOError("only_times_named", {{"path", printable(path_)}});
+    throwUnreadable(path_, "only_times_named");
   are_guessed_ = has_header_;
   notes_.push_back({"guessed_coordinates",
                     {{"skips_times", guess[2] > 2},
@@ -221,9 +217,7 @@ TextTable::checkGuess() const
     return;
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (columns_[axis].integers && columns_[axis].numbers > 0)
-      throw IOError(
-          "whole_numbers_guessed",
-          {{"path", printable(path_)}, {"column", shortenText(guessed_[axis])}});
+      throwUnreadable(path_, {"whole_numbers_guessed", shortenText(guessed_[axis])});
 }
 
 /** Keeps longitude, latitude and the vertical as fields: coordinates are copies, which
@@ -301,9 +295,7 @@ TextTable::scan(bool keep)
   }
   if (shape_.rows != TextRows::Shape().rows && count_ < shape_.rows)
     throwUnreadable(path_,
-                    "it is truncated: its zone promises " +
-                        std::to_string(shape_.rows) + " points, but only " +
-                        std::to_string(count_) + " follow");
+                    {"truncated_rows", shape_.rows, "points of its zone", count_});
 }
 
 /** Columns with numbers below limits are joined by columns of 1 where they are, and 0.
@@ -387,13 +379,12 @@ TextTable::checkColumn(const TextColumn& column, bool coordinate) const
 {
   const bool has_values = column.labels.empty() && column.isMostlyNumbers();
   if (coordinate && column.below > 0)
-    throw IOError("coordinate_below_limit",
-                  {{"path", printable(path_)}, {"column", shortenText(column.name)}});
+    throwUnreadable(path_, {"coordinate_below_limit", shortenText(column.name)});
   if (column.texts > 0 && (coordinate || has_values))
-    throwUnreadable(path_,
-                    column.first_text_line,
-                    quoteText(column.first_text) + " in column " +
-                        quoteText(column.name) + " is not a number");
+    throwUnreadable(
+        path_,
+        column.first_text_line,
+        {"text_in_column", shortenText(column.first_text), shortenText(column.name)});
 }
 
 /** Where numbers were meant, the note tells which cell to mend. */
@@ -527,7 +518,7 @@ private:
   [[noreturn]] void
   throwShorter() const
   {
-    throwUnreadable(path_, "the file became shorter while it was read");
+    throwUnreadable(path_, "shortened_file");
   }
 
   TextRows rows_;

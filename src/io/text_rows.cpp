@@ -16,7 +16,7 @@ TextRows::takeQuoted(std::string_view line, std::size_t& at) const
   while (end != std::string_view::npos && line.substr(end + 1, 1) == "\"")
     end = line.find('"', end + 2); // a doubled quote belongs to the cell
   if (end == std::string_view::npos)
-    throwUnreadable(path_, cursor_.tell().line, "a quoted cell does not end");
+    throwUnreadable(path_, cursor_.tell().line, "open_quote");
   at = end + 1;
   return line.substr(start, end - start);
 }
@@ -49,8 +49,7 @@ TextRows::split(std::string_view line, Cells& cells) const
       while (at < line.size() && !is_end(line[at]))
         ++at;
       if (!trimmed(line.substr(behind, at - behind)).empty())
-        throwUnreadable(
-            path_, cursor_.tell().line, "there is text behind the quotes of a cell");
+        throwUnreadable(path_, cursor_.tell().line, "text_behind_quote");
     }
     else {
       while (at < line.size() && !is_end(line[at]))
@@ -82,8 +81,7 @@ TextRows::next(Cells& cells)
   if (cells.size() != shape_.cells)
     throwUnreadable(path_,
                     cursor_.tell().line,
-                    "there are " + std::to_string(cells.size()) + " cells for the " +
-                        std::to_string(shape_.cells) + " columns of the header");
+                    {"wrong_count", "the line", cells.size(), "cells", shape_.cells});
   return true;
 }
 

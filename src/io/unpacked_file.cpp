@@ -41,7 +41,7 @@ readSome(const std::string& path, int from, char* bytes, std::size_t most)
     if (got >= 0)
       return static_cast<std::size_t>(got);
     if (errno != EINTR)
-      throwUnreadable(path, std::strerror(errno));
+      throwUnreadable(path, systemError());
   }
 }
 
@@ -53,9 +53,7 @@ writeAll(const std::string& path, int to, const char* bytes, std::size_t count)
     if (done < 0 && errno == EINTR)
       continue;
     if (done < 0)
-      throwUnreadable(path,
-                      std::string("it cannot be unpacked into a temporary file: ") +
-                          std::strerror(errno) + " (TMPDIR names another folder)");
+      throwUnreadable(path, {"not_unpacked", std::strerror(errno)});
     bytes += done;
     count -= static_cast<std::size_t>(done);
   }
@@ -64,7 +62,7 @@ writeAll(const std::string& path, int to, const char* bytes, std::size_t count)
 [[noreturn]] void
 throwDamaged(const std::string& path)
 {
-  throwUnreadable(path, "its compressed data are damaged or truncated");
+  throwUnreadable(path, "damaged_compression");
 }
 
 /** Gives packed bytes, and takes unpacked ones. */
@@ -257,9 +255,7 @@ openTemporary(const std::string& path)
       ::unlink(name.c_str());
   }
   if (descriptor < 0)
-    throwUnreadable(path,
-                    "no temporary file can be made in '" + folder +
-                        "': " + std::strerror(errno));
+    throwUnreadable(path, {"no_temporary_file", folder, std::strerror(errno)});
   return descriptor;
 }
 
@@ -288,9 +284,7 @@ unpackFile(const std::string& path, int packed)
     unxzAll(pipe);
 #endif
   else
-    throwUnreadable(path,
-                    "this build cannot unpack " + packing +
-                        "; unpack the file first, or pack it as .gz");
+    throwUnreadable(path, {"library_missing", packing, true});
   return to.take();
 }
 
@@ -311,7 +305,7 @@ openStandardInput()
   }
   const int copy = ::fcntl(spooled, F_DUPFD_CLOEXEC, 0);
   if (copy < 0)
-    throwUnreadable("-", std::strerror(errno));
+    throwUnreadable("-", systemError());
   return copy;
 }
 
@@ -331,7 +325,7 @@ inflatePart(const std::string& path,
                   static_cast<std::size_t>(std::min<std::uint64_t>(most, packed)),
                   static_cast<off_t>(offset));
               if (got < 0)
-                throwUnreadable(path, std::strerror(errno));
+                throwUnreadable(path, systemError());
               offset += static_cast<std::uint64_t>(got);
               packed -= static_cast<std::uint64_t>(got);
               return static_cast<std::size_t>(got);

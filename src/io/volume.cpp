@@ -21,7 +21,7 @@ makeAscending(const std::string& path, Volume& volume)
     double& spacing = volume.spacing[axis];
     if (!std::isfinite(spacing) || spacing == 0.0 ||
         !std::isfinite(volume.origin[axis]))
-      io::throwUnreadable(path, "its spacing or origin is zero or not finite");
+      io::throwUnreadable(path, {"invalid_part", "its spacing or origin"});
     if (spacing > 0.0)
       continue;
     const std::size_t n = volume.dims[axis];
@@ -54,7 +54,7 @@ readVolume(const std::string& path, const std::string& ending)
     return io::readMetaImage(path);
   if (ending != ".vti" && ending != ".vtk")
     io::throwUnreadable(
-        path, "volumes are read from .nrrd, .nhdr, .vti, .mha, .mhd and .vtk");
+        path, {"other_ending", "volumes", ".nrrd, .nhdr, .vti, .mha, .mhd and .vtk"});
   return io::vtkLibrary().readImage(path);
 }
 

@@ -74,7 +74,7 @@ ByteSource::fill()
   constexpr std::uint64_t packed_bytes = 1u << 17;
   packed_.resize(std::min(packed_bytes, file_.getSize() - offset_));
   if (packed_.empty())
-    throwUnreadable(path_, "its compressed data are truncated");
+    throwUnreadable(path_, "damaged_compression");
   file_.read(offset_, packed_.data(), packed_.size());
   offset_ += packed_.size();
   stream_->next_in = packed_.data();
@@ -93,7 +93,7 @@ ByteSource::unpack(std::uint8_t* bytes, std::size_t count)
     if (state == Z_STREAM_END)
       inflateReset(&*stream_); // files of gzip may be joined
     else if (state != Z_OK && state != Z_BUF_ERROR)
-      throwUnreadable(path_, "its compressed data are damaged");
+      throwUnreadable(path_, "damaged_compression");
   }
 }
 
@@ -130,10 +130,7 @@ private:
   [[noreturn]] void
   throwTruncated() const
   {
-    throwUnreadable(path_,
-                    "it is truncated or damaged: the header promises " +
-                        std::to_string(count_) + " numbers, but only " +
-                        std::to_string(cursor_.left()) + " bytes follow");
+    throwUnreadable(path_, {"truncated_data", count_, "numbers", cursor_.left()});
   }
 
   void
@@ -184,7 +181,9 @@ ValueReader::appendTexts(std::vector<float>& values)
       if (!parseNumber(text, data_.datatype, bytes))
         throwUnreadable(path_,
                         cursor_.tell().line + 1,
-                        quoteText(text) + " is not a number of the type in the header");
+                        {"unexpected_word",
+                         shortenText(text),
+                         "a number of the type in the header"});
       values.push_back(static_cast<float>(number.read(bytes)));
       ++taken;
     }
@@ -227,9 +226,8 @@ checkExists(const std::string& path, const std::string& file)
   std::error_code ignored; // of a name that is too long
   if (!is_name || !std::filesystem::exists(file, ignored))
     throwUnreadable(path,
-                    "its data file " +
-                        quoteText(std::filesystem::path(file).filename().string()) +
-                        " does not exist");
+                    {"no_required_file",
+                     shortenText(std::filesystem::path(file).filename().string())});
 }
 
 void
@@ -238,10 +236,7 @@ readFiles(const std::string& path, const VolumeData& data, Volume& volume)
   const std::uint64_t count =
       std::uint64_t(volume.dims[0]) * volume.dims[1] * volume.dims[2];
   if (data.files.empty() || volume.dims[2] % data.files.size() != 0)
-    throwUnreadable(path,
-                    "its " + std::to_string(volume.dims[2]) +
-                        " layers cannot be shared by " +
-                        std::to_string(data.files.size()) + " files of data");
+    throwUnreadable(path, {"shared_layers", volume.dims[2], data.files.size()});
   const std::uint64_t part = count / data.files.size();
   for (const std::string& file : data.files) {
     checkExists(path, file);
@@ -258,9 +253,7 @@ readFiles(const std::string& path, const VolumeData& data, Volume& volume)
 void
 throwOblique(const std::string& path)
 {
-  throwUnreadable(path,
-                  "its axes are not parallel to x, y and z in this order, resample it "
-                  "to such axes first");
+  throwUnreadable(path, "turned_axes");
 }
 
 void
@@ -270,14 +263,15 @@ setDims(const std::string& path,
 {
   constexpr std::uint64_t most = std::numeric_limits<std::int32_t>::max();
   if (words.size() != 3)
-    throwUnreadable(path, "it is not a volume of one number per point in 3-D");
+    throwUnreadable(path, "not_scalar_volume");
   std::uint64_t product = 1;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     std::uint64_t size = 0;
     if (!parseCount(words[axis], size) || size < 1 || size > most ||
         product > std::numeric_limits<std::uint64_t>::max() / size)
-      throwUnreadable(path,
-                      quoteText(words[axis]) + " is not a valid size of a volume");
+      throwUnreadable(
+          path,
+          {"unexpected_word", shortenText(words[axis]), "a valid size of a volume"});
     product *= size;
     volume.dims[axis] = static_cast<std::size_t>(size);
   }
@@ -323,10 +317,7 @@ expandPattern(const std::string& path, const std::vector<std::string_view>& word
     parse(words[i], numbers[i - 1]);
   const auto [first, last, step] = numbers;
   if (!valid || first < 0 || last < first || step < 1)
-    throwUnreadable(path,
-                    quoteText(pattern) +
-                        " and its numbers do not name files; slices are named as in "
-                        "'slice%03d.raw 1 20 1': one %d, first, last and step");
+    throwUnreadable(path, {"slice_pattern", shortenText(pattern)});
   const char fill = pattern[start + 1] == '0' ? '0' : ' ';
   std::vector<std::string> files;
   for (std::int64_t i = first; i <= last; i += step) {

@@ -27,7 +27,7 @@ void
 VolumeHeader::takeFiles(std::string_view value)
 {
   if (words_.empty())
-    throwInLine("it names no file of numbers");
+    throwInLine({"incomplete_entry", "the line", "the name of a file of numbers"});
   // "LIST" or "LIST 2", where the number is the dimension of each file.
   if (words_[0] == "LIST" && words_.size() <= 2) {
     std::string_view line;
@@ -46,12 +46,12 @@ VolumeHeader::parseWord(std::string_view word) const
 {
   double number = 0.0;
   if (!parseNumber(word, number))
-    throwInLine(quoteText(word) + " is not a number");
+    throwInLine({"unexpected_word", shortenText(word), "a number"});
   return number;
 }
 
 void
-VolumeHeader::throwInLine(const std::string& reason) const
+VolumeHeader::throwInLine(const FileReason& reason) const
 {
   throwUnreadable(path_, cursor_.tell().line, reason);
 }

@@ -54,7 +54,7 @@ protected:
   parseWord(std::string_view word) const;
 
   [[noreturn]] void
-  throwInLine(const std::string& reason) const;
+  throwInLine(const FileReason& reason) const;
 
   const std::string path_;
   FileCursor cursor_;

@@ -53,7 +53,7 @@ XmlTag::find(std::string_view attribute) const
 }
 
 void
-XmlScanner::fail(const std::string& reason) const
+XmlScanner::fail(const FileReason& reason) const
 {
   throwUnreadable(path_, cursor_.tell().line + 1, reason);
 }
@@ -92,7 +92,7 @@ XmlScanner::decoded(std::string_view text) const
         appendCharacter(result, code);
     }
     if (!known || end == text.npos)
-      fail(quoteText(text.substr(at, 10)) + " is not a character of XML");
+      fail({"unexpected_word", shortenText(text.substr(at, 10)), "a character of XML"});
     at = end;
   }
   return result;
@@ -107,7 +107,7 @@ XmlScanner::takeTag()
   while (true) {
     const char* const c = cursor_.take(1);
     if (!c)
-      fail("it is truncated or no XML: a tag does not end");
+      fail({"truncated_part", "a tag"});
     const bool comment = tag_.compare(0, 3, "!--") == 0;
     const bool ended = !comment || (tag_.size() == 5 && tag_.compare(3, 2, "--") == 0);
     if (*c == '>' && quote == 0 && ended)
@@ -117,7 +117,7 @@ XmlScanner::takeTag()
         tag_.erase(3, 1);
     }
     else if (tag_.size() == most_tag_bytes)
-      fail("a tag has more than " + std::to_string(most_tag_bytes) + " bytes");
+      fail({"too_many_parts", "a tag", most_tag_bytes, "bytes"});
     else if (quote == 0 && (*c == '"' || *c == '\''))
       quote = *c;
     else if (*c == quote)
@@ -147,17 +147,19 @@ XmlScanner::parse(std::string_view text, XmlTag& tag) const
     const std::string_view key = skip(is_name);
     skip(isBlank);
     if (text.substr(at++, 1) != "=" || key.empty())
-      fail("the tag " + quoteText(tag.name) + " has an attribute without a value");
+      fail({"incomplete_entry",
+            "an attribute of the tag " + quoteText(tag.name),
+            "a value"});
     skip(isBlank);
     const char quote = at < text.size() ? text[at] : '\0';
     const std::size_t end = text.find(quote, at + 1);
     if ((quote != '"' && quote != '\'') || end == text.npos)
-      fail("the tag " + quoteText(tag.name) + " has a value without quotes");
+      fail({"incomplete_entry", "a value of the tag " + quoteText(tag.name), "quotes"});
     tag.attributes.emplace_back(key, decoded(text.substr(at + 1, end - at - 1)));
     at = end + 1;
   }
   if (tag.name.empty() || at < text.size())
-    fail(quoteText(text) + " is not a tag of XML");
+    fail({"unexpected_word", shortenText(text), "a tag of XML"});
 }
 
 void
@@ -165,12 +167,12 @@ XmlScanner::nest(const XmlTag& tag)
 {
   if (tag.closes) {
     if (open_.empty() || open_.back() != tag.name)
-      fail(quoteText(tag.name) + " ends where it is not open");
+      fail({"unexpected_word", shortenText(tag.name), "the end of an open tag"});
     open_.pop_back();
   }
   else if (!tag.empty) {
     if (open_.size() == most_depth)
-      fail("its elements are nested more than " + std::to_string(most_depth) + " deep");
+      fail({"too_many_parts", "the nesting of its elements", most_depth, "levels"});
     open_.push_back(tag.name);
   }
 }

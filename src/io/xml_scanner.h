@@ -55,7 +55,7 @@ public:
 
 private:
   [[noreturn]] void
-  fail(const std::string& reason) const;
+  fail(const FileReason& reason) const;
   std::string_view
   takeTag();
   void

@@ -49,7 +49,7 @@ private:
   [[noreturn]] void
   fail() const
   {
-    throwUnreadable(path_, "it is truncated, damaged or no zip");
+    throwUnreadable(path_, {"not_format", "a complete zip archive"});
   }
 
   const std::string& path_;

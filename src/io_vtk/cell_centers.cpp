@@ -37,9 +37,8 @@ checkTuples(const std::string& path,
   for (int i = 0; i < data.GetNumberOfArrays(); ++i)
     if (const vtkIdType tuples = data.GetAbstractArray(i)->GetNumberOfTuples();
         tuples != count)
-      throwUnreadable(path,
-                      "an array has " + std::to_string(tuples) + " values for " +
-                          std::to_string(count) + ' ' + places);
+      throwUnreadable(
+          path, {"wrong_count", "an array of its " + places, tuples, "values", count});
 }
 
 /** Corners that a cell of a type has at least, -1 for no type. */
@@ -62,31 +61,37 @@ checkCorners(const std::string& path,
              vtkIdType points,
              vtkUnsignedCharArray* types)
 {
-  const auto refuse = [&path](const std::string& reason) {
-    throwUnreadable(path, "its cells are damaged: " + reason);
-  };
   std::array<vtkIdType, 256> least{};
   for (std::size_t type = 0; type < least.size() && types; ++type)
     least[type] = countCornersOf(static_cast<int>(type));
   const vtkIdType count = cells.GetNumberOfCells();
   if (types && types->GetNumberOfTuples() != count)
-    refuse(std::to_string(types->GetNumberOfTuples()) + " types are given for " +
-           std::to_string(count) + " cells");
+    throwUnreadable(path,
+                    {"wrong_count",
+                     "the table of types of cells",
+                     types->GetNumberOfTuples(),
+                     "types",
+                     count});
   const vtkIdType corners = cells.GetNumberOfConnectivityIds();
   const auto check = [&](const auto* end, const auto* id) {
     for (vtkIdType i = 0; i < count; ++i) {
       if (end[0] != 0 || end[i + 1] < end[i] || end[i + 1] > corners)
-        refuse("their corners overlap");
+        throwUnreadable(path, {"disagreeing_parts", "the offsets of its cells"});
       if (types && least[types->GetValue(i)] < 0)
-        refuse("the type " + std::to_string(types->GetValue(i)) +
-               " is not a type of VTK");
+        throwUnreadable(
+            path,
+            {"unexpected_word", std::to_string(types->GetValue(i)), "a type of cells"});
       if (types && end[i + 1] - end[i] < least[types->GetValue(i)])
-        refuse("one has " + std::to_string(end[i + 1] - end[i]) + " corners");
+        throwUnreadable(path,
+                        {"wrong_count",
+                         "a cell",
+                         end[i + 1] - end[i],
+                         "corners",
+                         std::to_string(least[types->GetValue(i)]) + " or more"});
     }
     for (vtkIdType i = 0; i < corners; ++i)
       if (id[i] < 0 || id[i] >= points)
-        refuse("a corner is the point " + std::to_string(id[i]) + " of " +
-               std::to_string(points));
+        throwUnreadable(path, {"missing_target", "a cell", "a point"});
   };
   if (cells.IsStorage64Bit())
     check(cells.GetOffsetsArray64()->GetPointer(0),
@@ -176,12 +181,14 @@ checkCells(const std::string& path, vtkDataSet& data)
         grid->GetXCoordinates(), grid->GetYCoordinates(), grid->GetZCoordinates()};
     for (int axis = 0; axis < 3; ++axis)
       if (!axes[axis] || axes[axis]->GetNumberOfTuples() != grid->GetDimensions()[axis])
-        throwUnreadable(path, "its grid has not as many coordinates as points");
+        throwUnreadable(
+            path, {"disagreeing_parts", "the coordinates and the points of its grid"});
   }
   if (auto* const grid = vtkStructuredGrid::SafeDownCast(&data))
     if (grid->GetPoints()->GetNumberOfPoints() !=
         vtkStructuredData::GetNumberOfPoints(grid->GetExtent()))
-      throwUnreadable(path, "its grid has not as many points as its extent");
+      throwUnreadable(path,
+                      {"disagreeing_parts", "the points and the extent of its grid"});
   const vtkIdType points = data.GetNumberOfPoints();
   if (auto* const polygons = vtkPolyData::SafeDownCast(&data))
     for (vtkCellArray* const cells : {polygons->GetVerts(),

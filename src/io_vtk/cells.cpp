@@ -117,8 +117,7 @@ makeListed(const std::string& path,
       continue;
     }
     if (corners != end - begin)
-      throwUnreadable(path,
-                      "it is damaged: a cell has not as many corners as its type");
+      throwUnreadable(path, {"wrong_count", "a cell", end - begin, "corners", corners});
     cells->InsertNextCell(static_cast<int>(end - begin));
     for (; begin < end; ++begin)
       cells->InsertCellPoint(static_cast<vtkIdType>(topology.corners[begin]));

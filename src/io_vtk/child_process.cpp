@@ -15,6 +15,7 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstring>
 #include <fcntl.h>
 #include <fstream>
 #include <poll.h>
@@ -270,7 +271,7 @@ Child::Child(const std::string& path,
 {
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0)
-    throwUnreadable(path, "too many files are open");
+    throwUnreadable(path, {"reader_not_started", std::strerror(errno)});
   sigset_t all, before;
   ::sigfillset(&all);
   ::pthread_sigmask(SIG_SETMASK, &all, &before);
@@ -282,10 +283,9 @@ Child::Child(const std::string& path,
   ::close(ends[1]);
   descriptor_ = ends[0];
   if (process_ < 0) {
+    const int error = errno;
     ::close(descriptor_);
-    throwUnreadable(path,
-                    "there is not enough memory, or are too many processes, for "
-                    "another one that reads it");
+    throwUnreadable(path, {"reader_not_started", std::strerror(error)});
   }
 }
 
@@ -311,10 +311,8 @@ Child::fail()
 {
   const int status = finish();
   if (late_ || (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU))
-    throwUnreadable(path_,
-                    "the reader of VTK takes more than " +
-                        std::to_string(limits_.seconds) + " s for it: it is damaged");
-  throwUnreadable(path_, "the reader of VTK fails on it: it is damaged");
+    throwUnreadable(path_, {"reader_too_slow", limits_.seconds});
+  throwUnreadable(path_, "reader_failed");
 }
 
 void
@@ -412,10 +410,7 @@ Child::take()
   case Answer::Error:
     throw IOError(receiveMessage());
   case Answer::NoMemory:
-    throwUnreadable(path_,
-                    "the reader of VTK takes more than " +
-                        std::to_string(limits_.memory >> 20) +
-                        " MB of memory for it: it is damaged");
+    throwUnreadable(path_, {"reader_too_large", limits_.memory >> 20});
   default:
     fail();
   }

@@ -33,7 +33,7 @@ constexpr std::array<std::uint8_t, 256> digit_values = makeDigits();
 [[noreturn]] void
 throwTruncated(const std::string& path)
 {
-  throwUnreadable(path, "it is truncated or damaged: the data of an array end early");
+  throwUnreadable(path, {"truncated_part", "an array"});
 }
 
 } // namespace
@@ -73,7 +73,7 @@ EncodedBytes::decode()
       padding += c == '=';
       if ((digit == no_digit) != (padding > 0) || (c != '=' && padding > 0) ||
           padding > 2)
-        throwUnreadable(path_, "the data of an array are not base64");
+        throwUnreadable(path_, {"invalid_part", "the base64 text of an array"});
       bits = bits << 6 | (digit & 63);
     }
     const char bytes[] = {static_cast<char>(bits >> 16),
@@ -168,7 +168,7 @@ readPacked(const std::string& path,
     const auto now = static_cast<std::size_t>(std::min(block, count));
     if (encoding.compressor->Uncompress(packed.data(), packed.size(), bytes, now) !=
         now)
-      throwUnreadable(path, "the compressed data of an array are damaged");
+      throwUnreadable(path, "damaged_compression");
     bytes += now;
     count -= now;
   }

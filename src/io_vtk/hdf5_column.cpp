@@ -186,9 +186,7 @@ private:
   [[noreturn]] void
   throwDamaged() const
   {
-    throwUnreadable(path_,
-                    "it is truncated or damaged: a chunk of " + quoteText(name_) +
-                        " cannot be unpacked");
+    throwUnreadable(path_, {"invalid_part", "a chunk of " + quoteText(name_)});
   }
 
   std::string path_, name_;
@@ -392,14 +390,13 @@ public:
       if (H5Zfilter_avail(id) > 0)
         continue;
       const auto known = names.find(id);
-      throw IOError("filter_not_installed",
-                    {{"path", printable(path_)},
-                     {"name", shortenText(name_)},
-                     {"filter", known != names.end() ? known->second : "number"},
-                     {"id", id}});
+      throwUnreadable(path_,
+                      {"filter_not_installed",
+                       shortenText(name_),
+                       known != names.end() ? known->second : "number",
+                       id});
     }
-    throwUnreadable(path_,
-                    "the numbers of " + quoteText(name_) + " are truncated or damaged");
+    throwUnreadable(path_, {"invalid_part", "the table " + quoteText(name_)});
   }
 
 private:
@@ -468,15 +465,11 @@ openHdf5Column(const std::string& path,
   if (shape.rows > UINT32_MAX || std::max(promised, storage.chunkBytes()) /
                                          (storage.is_packed ? deflate_expansion : 1) >
                                      stored)
-    throwUnreadable(path,
-                    "it is truncated or damaged: " + quoteText(name) + " is promised " +
-                        std::to_string(shape.rows) + " rows, but only " +
-                        std::to_string(stored) + " bytes are stored");
+    throwUnreadable(
+        path, {"truncated_data", shape.rows, "rows of " + quoteText(name), stored});
   if (storage.can_unpack && !storage.is_packed && !storage.mayHold(stored))
-    throwUnreadable(path,
-                    "it is damaged: " + quoteText(name) + " has chunks of " +
-                        std::to_string(storage.chunkBytes()) + " bytes, but " +
-                        std::to_string(stored) + " bytes are stored");
+    throwUnreadable(
+        path, {"wrong_count", quoteText(name), stored, "bytes", storage.chunkBytes()});
   if (storage.can_unpack)
     return std::make_unique<ChunkedColumn>(path, name, dataset, shape, storage);
   auto file = std::make_shared<const InputFile>(path);

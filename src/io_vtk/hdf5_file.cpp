@@ -83,11 +83,11 @@ Hdf5File::Hdf5File(const std::string& path)
     : path_(path)
 {
   if (!isHdf5(path))
-    throwUnreadable(path, "it is not an HDF5 file");
+    throwUnreadable(path, {"not_format", "an HDF5 file"});
   const Hdf5Session session;
   file_ = own(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
   if (!file_)
-    throwUnreadable(path, "it is truncated, damaged or still being written");
+    throwUnreadable(path, {"not_format", "a complete HDF5 file"});
 }
 
 bool
@@ -216,7 +216,8 @@ Hdf5File::openColumn(const std::string& dataset) const
   const Hdf5Session session;
   const auto shape = findShape(dataset);
   if (!shape)
-    throwUnreadable(path_, "it has no table of numbers " + quoteText(dataset));
+    throwUnreadable(path_,
+                    {"missing_part", "the table of numbers " + quoteText(dataset)});
   return openHdf5Column(path_, dataset, openDataset(*file_, dataset), *shape);
 }
 

@@ -31,14 +31,13 @@ Hdf5Group::takeCoordinates(const std::vector<std::string>& names)
     const auto shape = file_.findShape(dataset);
     if (!shape || shape->components != components)
       throwUnreadable(file_.getPath(),
-                      quoteText(dataset) + " is not a table of " +
-                          (components == 3 ? "three coordinates per point"
-                                           : "one coordinate per point"));
+                      {"unexpected_word",
+                       shortenText(dataset),
+                       components == 3 ? "a table of three coordinates per point"
+                                       : "a table of one coordinate per point"});
     if (i > 0 && shape->rows != rows_)
       throwUnreadable(file_.getPath(),
-                      quoteText(dataset) + " has " + std::to_string(shape->rows) +
-                          " rows, but " + quoteText(taken_.back()) + " has " +
-                          std::to_string(rows_));
+                      {"wrong_count", quoteText(dataset), shape->rows, "rows", rows_});
     rows_ = shape->rows;
     taken_.push_back(dataset);
     add(components == 3 ? std::vector<std::string>(std::begin(axes), std::end(axes))

@@ -61,14 +61,12 @@ openKind(const std::string& path, std::size_t kind, std::vector<Message> notes)
         0, std::vector<NamedColumn>(), std::move(notes));
   Hdf5Group reader(file, group);
   if (!reader.findCoordinates())
-    throwUnreadable(path,
-                    "it is truncated or damaged: " + quoteText(group) +
-                        " has no coordinates");
+    throwUnreadable(
+        path, {"missing_part", "the table of coordinates of " + quoteText(group)});
   if (reader.getRows() != here[kind])
-    throwUnreadable(path,
-                    "it is damaged: its header promises " + std::to_string(here[kind]) +
-                        " particles of kind " + std::to_string(kind) + ", but " +
-                        quoteText(group) + " has " + std::to_string(reader.getRows()));
+    throwUnreadable(
+        path,
+        {"wrong_count", quoteText(group), reader.getRows(), "particles", here[kind]});
   reader.takeFields(group);
   const auto masses = file.readAttribute("/Header", "MassTable");
   auto& columns = reader.getColumns();
@@ -159,11 +157,7 @@ openAnyGroup(const Hdf5File& file)
     if (Hdf5Group(file, group).findCoordinates())
       found.push_back(group);
   if (found.empty())
-    throwUnreadable(
-        file.getPath(),
-        "it is not a snapshot, and none of its groups has tables of coordinates "
-        "with a usual name (x, y, z or Coordinates, positions, pos); behind "
-        "the file they can be named, as in file.h5:/group/x,y,z");
+    throwUnreadable(file.getPath(), {"no_usual_coordinates", false});
   std::vector<Message> notes;
   if (found.size() > 1)
     notes.push_back({"several_groups",
@@ -183,9 +177,7 @@ openInside(const Hdf5File& file, const std::string& inside)
     Hdf5Group reader(file, inside);
     if (!reader.findCoordinates())
       throwUnreadable(file.getPath(),
-                      "the group " + quoteText(inside) +
-                          " has no tables of coordinates with a usual name; name them, "
-                          "as in file.h5:/group/x,y,z");
+                      {"no_usual_coordinates", true, shortenText(inside)});
     return openGroup(reader, inside, {});
   }
   const std::size_t slash = inside.rfind('/');
@@ -195,10 +187,7 @@ openInside(const Hdf5File& file, const std::string& inside)
   for (std::string word; std::getline(words, word, ',');)
     names.push_back(word);
   if (names.size() != 1 && names.size() != 3)
-    throwUnreadable(file.getPath(),
-                    quoteText(inside) +
-                        " names neither a group, nor one table of positions, nor "
-                        "three of coordinates");
+    throwUnreadable(file.getPath(), {"not_coordinate_tables", shortenText(inside)});
   Hdf5Group reader(file, group);
   reader.takeCoordinates(names);
   return openGroup(reader, group, {});
@@ -218,7 +207,7 @@ openHdf5(const std::string& path, const LoadOptions& options)
     if (auto phantom = openPhantom(file, options.particles))
       return phantom;
   if (!options.particles.empty())
-    throw IOError("unknown_snapshot", {{"path", printable(path)}});
+    throwUnreadable(path, "unknown_snapshot");
   if (auto data = openVtkHdf(file, name.inside.empty() ? vtkhdf_group : name.inside))
     return data;
   return name.inside.empty() ? openAnyGroup(file) : openInside(file, name.inside);

@@ -23,7 +23,7 @@ makeVolume(const std::string& path, vtkImageData& image)
   if (scalars == nullptr || scalars->GetNumberOfComponents() != 1 ||
       scalars->GetNumberOfTuples() == 0 ||
       scalars->GetNumberOfTuples() != image.GetNumberOfPoints())
-    throwUnreadable(path, "it contains no volume with one number per point");
+    throwUnreadable(path, "not_scalar_volume");
   if (!image.GetDirectionMatrix()->IsIdentity())
     throwOblique(path);
   Volume volume;
@@ -52,7 +52,7 @@ readImage(const std::string& path)
       getEnding(path) == ".vti" ? readVtkXml(path) : readVtkLegacy(path);
   auto* const image = vtkImageData::SafeDownCast(content.data);
   if (!image)
-    throwUnreadable(path, "it contains points, not a volume");
+    throwUnreadable(path, "not_scalar_volume");
   return makeVolume(path, *image);
 }
 

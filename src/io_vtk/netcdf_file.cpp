@@ -52,7 +52,7 @@ void
 NetcdfFile::check(int status) const
 {
   if (status != NC_NOERR)
-    throwUnreadable(path_, std::string("NetCDF says '") + nc_strerror(status) + "'");
+    throwUnreadable(path_, {"library_error", "NetCDF", nc_strerror(status)});
 }
 
 NetcdfFile::NetcdfFile(const std::string& path)
@@ -62,7 +62,7 @@ NetcdfFile::NetcdfFile(const std::string& path)
   const Hdf5Session session;
   int file = -1;
   if (nc_open(path.c_str(), NC_NOWRITE, &file) != NC_NOERR)
-    throwUnreadable(path, "it is not a NetCDF file, or it is damaged");
+    throwUnreadable(path, {"not_format", "a NetCDF file"});
   file_ = std::shared_ptr<const int>(new int(file), [](const int* id) {
     const Hdf5Session closing;
     nc_close(*id);
@@ -116,8 +116,7 @@ NetcdfFile::countNumbers(const NetcdfVariable& variable) const
     const std::uint64_t along = sizeOf(dimension);
     if (along != 0 && size > most / along)
       throwUnreadable(path_,
-                      "it is damaged: '" + variable.name +
-                          "' has more numbers than the file has room for");
+                      {"truncated_part", "the variable " + quoteText(variable.name)});
     size *= along;
   }
   return size;

@@ -133,9 +133,7 @@ findPlaces(const NetcdfFile& file)
   for (const NetcdfVariable& variable : file.getVariables())
     list += (list.empty() ? "" : ", ") + printable(variable.name);
   throwUnreadable(file.getPath(),
-                  "no variables of it are longitude and latitude, or x and y, by their "
-                  "standard names, units or names; there are " +
-                      (list.empty() ? "none" : shortenText(list)));
+                  {"no_netcdf_coordinates", list.empty() ? "none" : shortenText(list)});
 }
 
 std::vector<NetcdfVariable>

@@ -133,8 +133,9 @@ SampleSpace::findInstances()
           return index >= count;
         }))
       throwUnreadable(file_->getPath(),
-                      "it is damaged: " + quoteText(variable.name) +
-                          " does not define which samples belong together");
+                      {"invalid_part",
+                       "the list " + quoteText(variable.name) +
+                           " of samples that belong together"});
     samples_of_[instance] = samples >= 0 ? samples : own;
     (*instances_)[instance] = std::move(list);
   }

@@ -209,9 +209,7 @@ PhantomReader::open()
   const auto lengths = file_.findShape("/particles/h");
   if (lengths->rows != reader_.getRows() || lengths->components != 1)
     throwUnreadable(file_.getPath(),
-                    "it is damaged: there are " + std::to_string(reader_.getRows()) +
-                        " particles, but h has " + std::to_string(lengths->rows) +
-                        " rows");
+                    {"wrong_count", "h", lengths->rows, "rows", reader_.getRows()});
   reader_.takeFields(group_);
   addDensity();
   std::vector<Message> notes;

@@ -96,7 +96,7 @@ PointJoiner::join() const
 {
   if (isEmpty())
     throwUnreadable(
-        path_, place_ == DataPlace::Points ? "it has no points" : "it has no cells");
+        path_, {"nothing_inside", place_ == DataPlace::Points ? "points" : "cells"});
   if (place_ == DataPlace::Solids)
     return {packCells(joinSolidCells(solids_)), {}};
   vtkNew<vtkAppendFilter> append;

@@ -84,8 +84,10 @@ checkArrayCount(const std::string& path, std::size_t arrays)
 {
   if (arrays > most_vtk_arrays)
     throwUnreadable(path,
-                    "it has more than " + std::to_string(most_vtk_arrays) +
-                        " arrays, which VTK takes minutes for");
+                    {"too_many_parts",
+                     "it",
+                     most_vtk_arrays,
+                     "arrays, which VTK takes minutes for"});
 }
 
 Message
@@ -98,7 +100,7 @@ void
 checkLattice(const std::string& path, vtkDataSet& data)
 {
   if (!vtkPointSet::SafeDownCast(&data) && !data.GetPointData()->GetArray(0))
-    throwUnreadable(path, "it contains a grid without numbers at its points");
+    throwUnreadable(path, {"nothing_inside", "numbers at the points of its grid"});
 }
 
 std::uint8_t*
@@ -119,16 +121,14 @@ readTexts(const std::string& path,
   std::string_view word;
   for (std::uint64_t i = 0; i < count; ++i, bytes += size) {
     if (!cursor.nextWord(word))
-      throwUnreadable(path, "it is truncated: numbers are missing at its end");
+      throwUnreadable(path, {"truncated_part", "an array"});
     if (const std::uint64_t behind = cursor.tell().offset; behind > end)
       word = word.substr(
           0, word.size() - std::min<std::uint64_t>(word.size(), behind - end));
     if (!parseNumber(word, datatype, bytes))
       throwUnreadable(path,
                       cursor.tell().line + 1,
-                      word.empty()
-                          ? "an array has too few numbers"
-                          : quoteText(word) + " is not a number of that array");
+                      {"unexpected_word", shortenText(word), "a number of an array"});
   }
 }
 
@@ -143,10 +143,11 @@ checkPromise(const std::string& path,
   if (components < 1 || components > std::numeric_limits<std::int32_t>::max() ||
       (tuples > 0 && components > left / size / tuples))
     throwUnreadable(path,
-                    "it is truncated or damaged: the array " + quoteText(array) +
-                        " is promised " + std::to_string(tuples) + " tuples of " +
-                        std::to_string(components) + " numbers, but only " +
-                        std::to_string(left) + " bytes follow");
+                    {"truncated_data",
+                     tuples,
+                     "tuples of " + std::to_string(components) +
+                         " numbers of the array " + quoteText(array),
+                     left});
 }
 
 } // namespace io

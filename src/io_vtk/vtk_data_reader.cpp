@@ -59,7 +59,7 @@ checkBeginning(const std::string& path)
   if (isAmong(exodus_endings, getEnding(path)) && head.rfind("CDF", 0) != 0 &&
       head != "\x89HDF")
     throwUnreadable(path,
-                    "it is not an Exodus file: it does not begin like NetCDF or HDF5");
+                    {"not_format", "an Exodus file, which begins like NetCDF or HDF5"});
 }
 
 vtkSmartPointer<vtkAlgorithm>
@@ -173,9 +173,9 @@ listFiles(const std::string& path)
       files.push_back({findListed(folder, *name), time ? *time : ""});
   }
   if (!scanner.getOpen().empty())
-    throwUnreadable(path, "it is truncated or no list of files");
+    throwUnreadable(path, {"not_format", "a list of files"});
   if (files.empty())
-    throwUnreadable(path, "it lists no files");
+    throwUnreadable(path, {"nothing_inside", "files"});
   return files;
 }
 
@@ -227,7 +227,7 @@ readHere(const std::string& path, DataPlace place, const VtkMessages& messages)
     checkVtkXml(path);
   const auto check = [&] {
     if (!messages.getError().empty())
-      throwUnreadable(path, "VTK says " + quoteText(messages.getError()));
+      throwUnreadable(path, {"library_error", "VTK", shortenText(messages.getError())});
   };
   const auto reader = makeReader(path, place);
   const auto note = updateAtLastTime(*reader);
@@ -275,11 +275,13 @@ visitFiles(const std::string& path,
            const std::function<void(const std::string& file)>& take)
 {
   if (lists.open == most_open_lists)
-    throwUnreadable(lists.first, "its lists name one another without end");
+    throwUnreadable(lists.first, "endless_lists");
   if (lists.all == most_lists)
     throwUnreadable(lists.first,
-                    "more than " + std::to_string(most_lists) +
-                        " lists are named, many of them again and again");
+                    {"too_many_parts",
+                     "it",
+                     most_lists,
+                     "lists, counted as often as they are named"});
   ++lists.open;
   ++lists.all;
   std::vector<ListedFile> files = listFiles(path);
@@ -346,7 +348,7 @@ readByVtk(const std::string& path, DataPlace place)
   VtkContent content = readApart(path, place);
   if (content.data->GetNumberOfPoints() == 0)
     throwUnreadable(
-        path, place == DataPlace::Points ? "it has no points" : "it has no cells");
+        path, {"nothing_inside", place == DataPlace::Points ? "points" : "cells"});
   return content;
 }
 

@@ -92,13 +92,13 @@ readPieceList(const std::string& path)
       continue;
     const std::string* const source = tag.find("Source");
     if (!source)
-      throwUnreadable(path, "it is not a list of pieces: one of them has no Source");
+      throwUnreadable(path, {"missing_part", "the Source of a piece"});
     pieces.push_back((std::filesystem::path(path).parent_path() / *source).string());
   }
   if (!is_list || !scanner.getOpen().empty())
-    throwUnreadable(path, "it is truncated or not a list of pieces of polygonal data");
+    throwUnreadable(path, {"not_format", "a list of pieces of polygonal data"});
   if (pieces.empty())
-    throwUnreadable(path, "it lists no pieces");
+    throwUnreadable(path, {"nothing_inside", "pieces"});
   return pieces;
 }
 
@@ -130,7 +130,7 @@ writePieceList(const std::string& file,
   std::ofstream out(file);
   root->PrintXML(out, vtkIndent());
   if (!out.flush())
-    throwUnwritable(path, "the disk may be full");
+    throwUnwritable(path, "full_disk");
 }
 
 Dataset
@@ -150,10 +150,7 @@ void
 checkVtpFields(const std::string& path, const std::vector<pcl::PCLPointField>& fields)
 {
   if (fields.size() > most_vtk_arrays)
-    throwUnwritable(
-        path,
-        std::to_string(fields.size()) + " fields are too many: a .vtp has " +
-            std::to_string(most_vtk_arrays) + " at most, a .vtkhdf any number");
+    throwUnwritable(path, {"many_vtp_fields", fields.size(), most_vtk_arrays});
 }
 
 void

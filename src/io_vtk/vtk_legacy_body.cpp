@@ -46,7 +46,7 @@ LegacyBody::LegacyBody(const std::string& path, FileCursor& cursor, bool is_bina
 }
 
 void
-LegacyBody::fail(const std::string& reason) const
+LegacyBody::fail(const FileReason& reason) const
 {
   throwUnreadable(path_, cursor_.tell().line, reason);
 }
@@ -57,16 +57,14 @@ LegacyBody::skipNumbers(const VtkType& type, std::uint64_t count)
   const std::uint64_t size = datatypeSize(type.datatype);
   if (is_binary_) {
     if (count > cursor_.left() / size)
-      fail("it is truncated or damaged: " + std::to_string(count) +
-           " numbers are promised, but only " + std::to_string(cursor_.left()) +
-           " bytes follow");
+      fail({"truncated_data", count, "numbers", cursor_.left()});
     cursor_.skip(size * count);
     return;
   }
   std::string_view ignored;
   for (std::uint64_t i = 0; i < count; ++i)
     if (!cursor_.nextWord(ignored))
-      fail("it is truncated: numbers are missing at its end");
+      fail({"truncated_part", "an array"});
 }
 
 namespace {
@@ -108,8 +106,10 @@ LegacyBody::readArray(std::string_view type_name,
   const bool bits = type_name == "bit";
   const VtkType* const type = findLegacyType(bits ? "unsigned_char" : type_name);
   if (!type)
-    fail("the array " + quoteText(name) + " has the type " + quoteText(type_name) +
-         ", which is not read");
+    fail({"unsupported_value",
+          "the type of the array " + quoteText(name),
+          shortenText(type_name),
+          "types of numbers"});
   const std::uint64_t size = is_binary_ ? datatypeSize(type->datatype) : 2;
   checkPromise(path_,
                name,
@@ -131,20 +131,19 @@ LegacyBody::readArray(std::string_view type_name,
     const auto packed_bytes = static_cast<std::size_t>((numbers + 7) / 8);
     const char* const packed = cursor_.take(packed_bytes);
     if (!packed)
-      fail("it is truncated: bits are missing at its end");
+      fail({"truncated_part", "an array"});
     for (std::uint64_t i = 0; i < numbers; ++i)
       bytes[i] = static_cast<std::uint8_t>(packed[i / 8] >> (7 - i % 8) & 1);
   }
   else {
     if (numbers > cursor_.left() / size)
-      fail("it is truncated: numbers are missing at its end");
+      fail({"truncated_part", "an array"});
     cursor_.getFile().read(cursor_.tell().offset, bytes, numbers * size);
     cursor_.skip(numbers * size);
     const bool are_plain = name == "Points" && arePlain(type->datatype, bytes, numbers);
     swapBytes(bytes, size, numbers); // the files are big-endian
     if (are_plain && !arePlain(type->datatype, bytes, numbers))
-      throw IOError("swapped_bytes",
-                    {{"path", printable(path_)}, {"name", shortenText(name)}});
+      throwUnreadable(path_, {"swapped_bytes", shortenText(name)});
   }
   if (type_name == "vtkidtype") { // written as int
     vtkSmartPointer<vtkDataArray> ids =
@@ -162,7 +161,7 @@ LegacyBody::skipTexts(std::uint64_t count)
   for (std::uint64_t i = 0; i < count; ++i) {
     if (!is_binary_) {
       if (!cursor_.nextLine(ignored))
-        fail("it is truncated: texts are missing at its end");
+        fail({"truncated_part", "an array"});
       continue;
     }
     // The two highest bits tell how many bytes the length has: 8, 4, 2, 1.
@@ -173,7 +172,7 @@ LegacyBody::skipTexts(std::uint64_t count)
       if ((at = cursor_.take(1)) != nullptr)
         length = length << 8 | static_cast<unsigned char>(*at);
     if (!at || !cursor_.skip(length))
-      fail("it is truncated: texts are missing at its end");
+      fail({"truncated_part", "an array"});
   }
 }
 

@@ -54,7 +54,7 @@ public:
 
 private:
   [[noreturn]] void
-  fail(const std::string& reason) const;
+  fail(const FileReason& reason) const;
 
   const std::string& path_;
   FileCursor& cursor_;

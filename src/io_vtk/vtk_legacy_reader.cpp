@@ -43,20 +43,18 @@ takeHeader(const std::string& path, FileCursor& cursor)
 {
   std::string_view line;
   if (!cursor.nextLine(line) || line.substr(0, 14) != "# vtk DataFile")
-    throwUnreadable(path,
-                    "it is not a VTK file: its first line does not begin with '# "
-                    "vtk DataFile'");
+    throwUnreadable(path, {"wrong_start", "a VTK file", "'# vtk DataFile'"});
   cursor.nextLine(line); // the title
   Words words;
   Header header;
   const std::string format =
       cursor.nextWords(words) ? lowerCase(words[0]) : std::string();
   if (format != "ascii" && format != "binary")
-    throwUnreadable(path, 3, "the line is neither ASCII nor BINARY");
+    throwUnreadable(path, 3, {"missing_part", "the line ASCII or BINARY"});
   header.binary = format == "binary";
   if (!cursor.nextWords(words) || words.size() != 2 || lowerCase(words[0]) != "dataset")
     throwUnreadable(
-        path, cursor.tell().line, "it has no DATASET, which points require");
+        path, cursor.tell().line, {"missing_part", "the DATASET of its points"});
   header.kind = lowerCase(words[1]);
   return header;
 }
@@ -108,7 +106,7 @@ private:
   makeGeometry() const;
 
   [[noreturn]] void
-  fail(const std::string& reason) const
+  fail(const FileReason& reason) const
   {
     throwUnreadable(path_, cursor_.tell().line, reason);
   }
@@ -118,7 +116,7 @@ private:
   word(std::size_t i) const
   {
     if (i >= words_.size())
-      fail("words are missing behind " + quoteText(words_[0]));
+      fail({"incomplete_entry", quoteText(words_[0]), "more words"});
     return words_[i];
   }
 
@@ -144,7 +142,7 @@ LegacyReader::count(std::size_t i) const
 {
   std::uint64_t value = 0;
   if (!parseCount(word(i), value))
-    fail(quoteText(word(i)) + " is not a count");
+    fail({"unexpected_word", shortenText(word(i)), "a count"});
   return value;
 }
 
@@ -167,7 +165,7 @@ LegacyReader::takeGeometry(const std::string& key)
     std::array<double, 3> values{};
     for (std::size_t i = 0; i < 3; ++i)
       if (!parseNumber(word(i + 1), values[i]))
-        fail(quoteText(word(i + 1)) + " is not a number");
+        fail({"unexpected_word", shortenText(word(i + 1)), "a number"});
     return values;
   };
   if (key == "dimensions") {
@@ -176,7 +174,7 @@ LegacyReader::takeGeometry(const std::string& key)
     std::uint64_t product = 1;
     for (const std::uint64_t size : *dims_) {
       if (size > most || (size > 0 && product > (std::uint64_t(1) << 62) / size))
-        fail("the grid has too many points");
+        fail({"uncountable", "points"});
       product *= size;
     }
     points_ = product;
@@ -188,8 +186,7 @@ LegacyReader::takeGeometry(const std::string& key)
   else if (key == "points") {
     const std::uint64_t points = count(1);
     if (dims_ && points != points_)
-      fail("there are " + std::to_string(points) + " points for a grid of " +
-           std::to_string(points_));
+      fail({"wrong_count", "the grid", points, "points", points_});
     points_ = points;
     coordinates_ = body_.readArray(lowerCase(word(2)), "Points", 3, points);
   }
@@ -228,7 +225,7 @@ LegacyReader::takeCells(const std::string& key)
     const bool has_type = cursor_.nextWords(words) && words.size() == 2;
     const VtkType* const type = findLegacyType(has_type ? lowerCase(words[1]) : "");
     if (!type)
-      fail("OFFSETS or CONNECTIVITY of the cells are missing");
+      fail({"missing_part", "OFFSETS or CONNECTIVITY of its cells"});
     body_.skipNumbers(*type, size);
   }
   return true;
@@ -280,7 +277,7 @@ LegacyReader::takeField()
   for (std::uint64_t i = 0; i < arrays; ++i) {
     Words words;
     if (!cursor_.nextWords(words))
-      fail("it is truncated: arrays of a FIELD are missing");
+      fail({"truncated_part", "a FIELD"});
     if (lowerCase(words[0]) == "metadata") {
       body_.skipMetadata();
       --i;
@@ -291,7 +288,7 @@ LegacyReader::takeField()
     const std::uint64_t components = count(1), tuples = count(2);
     if (type == "string") {
       if (components > 0 && tuples > cursor_.left() / components)
-        fail("it is truncated: texts are missing at its end");
+        fail({"truncated_part", "an array"});
       body_.skipTexts(components * tuples);
       if (data_ == Data::Points)
         notes_.push_back(describeTexts(name));
@@ -338,7 +335,7 @@ LegacyReader::takeAttribute(const std::string& key)
   else if (key == "lookup_table") {
     const std::uint64_t rows = count(2);
     if (rows > cursor_.left())
-      fail("it is truncated: a table of colours is missing");
+      fail({"truncated_part", "a table of colours"});
     body_.skipNumbers(*findLegacyType("unsigned_char"), 4 * rows);
   }
   else
@@ -353,8 +350,7 @@ LegacyReader::takeData(Data data)
   if (data == Data::Cells)
     cells_ = count(1);
   else if (count(1) != points_)
-    fail("there are data of " + std::to_string(count(1)) + " points for " +
-         std::to_string(points_) + " points");
+    fail({"wrong_count", "POINT_DATA", count(1), "points", points_});
 }
 
 vtkSmartPointer<vtkDataSet>
@@ -362,7 +358,7 @@ LegacyReader::makeGeometry() const
 {
   if (header_.kind == "structured_points" || header_.kind == "rectilinear_grid") {
     if (!dims_)
-      throwUnreadable(path_, "its grid has no DIMENSIONS");
+      throwUnreadable(path_, {"missing_part", "DIMENSIONS of its grid"});
     const auto dims = [this](std::size_t axis) {
       return static_cast<int>((*dims_)[axis]);
     };
@@ -377,9 +373,9 @@ LegacyReader::makeGeometry() const
     for (std::size_t axis = 0; axis < 3; ++axis)
       if (!axes_[axis] || axes_[axis]->GetNumberOfTuples() != dims(axis))
         throwUnreadable(path_,
-                        "its grid has not as many " +
-                            std::string(1, static_cast<char>('X' + axis)) +
-                            "_COORDINATES as DIMENSIONS say");
+                        {"disagreeing_parts",
+                         std::string(1, static_cast<char>('X' + axis)) +
+                             "_COORDINATES and DIMENSIONS"});
     grid->SetDimensions(dims(0), dims(1), dims(2));
     grid->SetXCoordinates(axes_[0]);
     grid->SetYCoordinates(axes_[1]);
@@ -387,7 +383,7 @@ LegacyReader::makeGeometry() const
     return grid;
   }
   if (!coordinates_)
-    throwUnreadable(path_, "it has no POINTS");
+    throwUnreadable(path_, {"missing_part", "the list POINTS"});
   auto set = vtkSmartPointer<vtkPolyData>::New();
   vtkNew<vtkPoints> points;
   points->SetData(coordinates_);
@@ -404,7 +400,7 @@ LegacyReader::scan()
                                         "polydata",
                                         "unstructured_grid"};
   if (std::find(std::begin(kinds), std::end(kinds), header_.kind) == std::end(kinds))
-    fail("it contains no points, only " + quoteText(header_.kind));
+    fail({"other_content", quoteText(header_.kind), "points"});
   Words words;
   while (cursor_.nextWords(words)) {
     words_.assign(words.begin(), words.end());
@@ -416,7 +412,7 @@ LegacyReader::scan()
     else if (key == "metadata")
       body_.skipMetadata();
     else if (!takeGeometry(key) && !takeCells(key) && !takeAttribute(key))
-      fail(quoteText(words_[0]) + " is not a keyword of its data");
+      fail({"unexpected_word", shortenText(words_[0]), "a keyword of its data"});
   }
 }
 

@@ -107,9 +107,9 @@ writeXml(vtkXMLWriter& writer, const std::string& file, const std::string& path)
   writer.SetCompressionLevel(1); // the mantissas of floats hardly shrink further
   const bool written = writer.Write() != 0;
   if (!messages.getError().empty())
-    throwUnwritable(path, "VTK says: " + messages.getError());
+    throwUnwritable(path, {"library_error", "VTK", messages.getError()});
   if (!written || writer.GetErrorCode() != 0)
-    throwUnwritable(path, "VTK could not write it; the disk may be full");
+    throwUnwritable(path, "full_disk");
 }
 
 } // namespace io

@@ -87,7 +87,11 @@ ArrayReader::chooseCompressor()
     encoding_.most_expansion = 1u << 14; // zeros: measured 7000
   }
   else
-    throwUnreadable(path_, quoteText(tags_.compressor) + " is not a compressor of VTK");
+    throwUnreadable(path_,
+                    {"unsupported_value",
+                     "the compressor",
+                     shortenText(tags_.compressor),
+                     "compressors of VTK"});
   encoding_.compressor = compressor_;
 }
 
@@ -97,9 +101,7 @@ ArrayReader::beginOf(const ArrayTag& array) const
   if (array.format != "appended")
     return array.begin;
   if (array.offset >= tags_.appended_end - tags_.appended)
-    throwUnreadable(path_,
-                    "it is truncated or damaged: the data of the array " +
-                        quoteText(array.name) + " are not there");
+    throwUnreadable(path_, {"truncated_part", "the array " + quoteText(array.name)});
   return tags_.appended + array.offset;
 }
 
@@ -158,7 +160,7 @@ ArrayReader::checkThoroughly(const ArrayTag& array, std::uint64_t tuples)
       if (!cursor_.nextWord(word) ||
           cursor_.tell().offset - word.size() >= endOf(array))
         throwUnreadable(path_,
-                        "the array " + quoteText(array.name) + " has too few numbers");
+                        {"truncated_part", "the array " + quoteText(array.name)});
     return;
   }
   EncodedBytes source(path_,
@@ -183,7 +185,7 @@ readPolygonNumbers(const std::string& path,
         return tag.name == name && tag.type && tag.components == 1;
       });
   if (array == piece.polygons.end())
-    throwUnreadable(path, "its polygons have no " + name);
+    throwUnreadable(path, {"missing_part", "the array " + name + " of its polygons"});
   reader.check(*array, count);
   const std::size_t size = datatypeSize(array->type->datatype);
   std::vector<std::uint8_t> bytes(count * size);
@@ -219,8 +221,7 @@ checkEnd(const std::string& path)
   std::string end(size, '\0');
   file.read(file.getSize() - size, end.data(), end.size());
   if (end.find("</VTKFile>") == std::string::npos)
-    throwUnreadable(path,
-                    "it is truncated or no VTK file: it does not end with </VTKFile>");
+    throwUnreadable(path, {"missing_part", "</VTKFile> at its end"});
 }
 
 /** Calls visit(first point in the whole, number of points) for the rows of a part of a
@@ -294,9 +295,7 @@ Assembler::checkPieces()
     pieces.push_back(first); // for its arrays
   for (const Piece& piece : pieces) {
     if (piece.points > std::numeric_limits<std::int64_t>::max() / 64 - points_)
-      throwUnreadable(path_,
-                      "it promises " + std::to_string(piece.points) +
-                          " points, more than there can be");
+      throwUnreadable(path_, {"uncountable", "points"});
     points_ += piece.points;
     const auto is_same = [](const ArrayTag& a, const ArrayTag& b) {
       return a.name == b.name && a.type == b.type && a.components == b.components;
@@ -307,18 +306,22 @@ Assembler::checkPieces()
     };
     if (!have_same(piece.arrays, pieces[0].arrays) ||
         !have_same(piece.coordinates, pieces[0].coordinates))
-      throwUnreadable(path_, "its pieces have different arrays");
+      throwUnreadable(path_, {"disagreeing_parts", "the arrays of its pieces"});
     if (tags_.kind != "ImageData" && piece.points > 0 &&
         (piece.coordinates.size() != 1 || piece.coordinates[0].components != 3 ||
          !piece.coordinates[0].type))
-      throwUnreadable(path_, "a piece has no points of three coordinates");
+      throwUnreadable(path_,
+                      {"missing_part", "an array of three coordinates in a piece"});
   }
   if (!isGrid())
     return;
   if (countOf(tags_.whole) > points_)
     throwUnreadable(path_,
-                    "its pieces have " + std::to_string(points_) + " of the " +
-                        std::to_string(countOf(tags_.whole)) + " points of the grid");
+                    {"wrong_count",
+                     "the list of its pieces",
+                     points_,
+                     "points",
+                     countOf(tags_.whole)});
   points_ = countOf(tags_.whole);
 }
 
@@ -343,7 +346,7 @@ Assembler::gatherGrid(ArrayReader& reader,
     });
   }
   if (std::find(covered.begin(), covered.end(), false) != covered.end())
-    throwUnreadable(path_, "its pieces do not have all points of the grid");
+    throwUnreadable(path_, {"missing_part", "a piece of its grid"});
 }
 
 vtkSmartPointer<vtkDataArray>
@@ -475,7 +478,7 @@ checkVtkXml(const std::string& path)
   for (const Piece& piece : tags.pieces)
     cells += piece.cells;
   const auto refuse = [&] {
-    throwUnreadable(path, "its pieces do not have all cells of the grid");
+    throwUnreadable(path, {"missing_part", "a piece of its grid"});
   };
   if (cells < countOf(whole))
     refuse();

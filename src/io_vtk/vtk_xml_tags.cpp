@@ -45,8 +45,9 @@ TagCollector::takeNumbers(const std::string* text, std::array<double, N>& number
     valid = parseNumber(words[i], numbers[i]);
   if (!valid)
     throwUnreadable(path_,
-                    quoteText(*text) + " is not a list of " + std::to_string(N) +
-                        " numbers");
+                    {"unexpected_word",
+                     shortenText(*text),
+                     "a list of " + std::to_string(N) + " numbers"});
 }
 
 Extent
@@ -60,12 +61,13 @@ TagCollector::extentIn(const std::string& text) const
     const double low = numbers[i / 2 * 2];
     if (!(std::abs(numbers[i]) <= most) || numbers[i] != std::floor(numbers[i]) ||
         numbers[i] < low - 1 || numbers[i] - low >= most)
-      throwUnreadable(path_, quoteText(text) + " is not the extent of a grid");
+      throwUnreadable(path_,
+                      {"unexpected_word", shortenText(text), "the extent of a grid"});
     extent[i] = static_cast<int>(numbers[i]);
   }
   if (countOf({extent[0], extent[1], extent[2], extent[3], 0, 0}) > std::uint64_t(1)
                                                                         << 32)
-    throwUnreadable(path_, quoteText(text) + " is an extent of too many points");
+    throwUnreadable(path_, {"uncountable", "points"});
   return extent;
 }
 
@@ -76,8 +78,9 @@ TagCollector::countIn(const XmlTag& tag,
 {
   const std::string* const text = tag.find(attribute);
   if (text && !parseCount(trimmed(*text), absent))
-    throwUnreadable(path_,
-                    quoteText(*text) + " is not a valid " + std::string(attribute));
+    throwUnreadable(
+        path_,
+        {"unexpected_word", shortenText(*text), "a valid " + std::string(attribute)});
   return absent;
 }
 
@@ -98,7 +101,7 @@ TagCollector::takeRoot(const XmlTag& tag)
       return;
   if (with_cells_ && kind == "RectilinearGrid")
     return;
-  throwUnreadable(path_, "it contains no points, only " + quoteText(kind));
+  throwUnreadable(path_, {"other_content", quoteText(kind), "points"});
 }
 
 void
@@ -120,12 +123,12 @@ TagCollector::takePiece(const XmlTag& tag)
     piece.extent = extentIn(*extent);
     for (std::size_t i = 0; i < 6; i += 2)
       if (piece.extent[i] < whole[i] || piece.extent[i + 1] > whole[i + 1])
-        throwUnreadable(path_, "a piece is outside the whole extent");
+        throwUnreadable(path_, {"invalid_part", "the extent of a piece"});
     piece.points = countOf(piece.extent);
     piece.cells = countOf(cellsOf(piece.extent));
   }
   else if (grid)
-    throwUnreadable(path_, "a piece has no extent");
+    throwUnreadable(path_, {"missing_part", "the extent of a piece"});
   else
     piece.points = countIn(tag, "NumberOfPoints", 0);
   if (kind == "PolyData")
@@ -138,9 +141,7 @@ TagCollector::takePiece(const XmlTag& tag)
                                             "NumberOfPolys"}) {
       const std::uint64_t cells = countIn(tag, kind_of_cells, 0);
       if (cells > std::uint64_t(1) << 40) // more than memory holds, with a byte each
-        throwUnreadable(path_,
-                        "it promises " + std::to_string(cells) +
-                            " cells, more than there can be");
+        throwUnreadable(path_, {"uncountable", "cells"});
       piece.cells += cells;
     }
   pieces.push_back(std::move(piece));
@@ -168,8 +169,10 @@ TagCollector::takeArray(const XmlTag& tag)
   array.type = findXmlType(type ? *type : std::string());
   if (!array.type && (!type || *type != "String"))
     throwUnreadable(path_,
-                    "the array " + quoteText(array.name) + " has the type " +
-                        quoteText(type ? *type : "") + ", which is not read");
+                    {"unsupported_value",
+                     "the type of the array " + quoteText(array.name),
+                     shortenText(type ? *type : ""),
+                     "types of numbers"});
   array.components = countIn(tag, "NumberOfComponents", 1);
   array.format = format ? *format : "ascii";
   array.offset = countIn(tag, "offset", 0);
@@ -220,14 +223,14 @@ TagCollector::skipToAppended(const XmlTag& tag)
   cursor.seek({tag.end, 0});
   const char* const mark = cursor.skipBlanks() ? cursor.take(1) : nullptr;
   if (!mark || *mark != '_')
-    throwUnreadable(path_, "its appended data do not begin with '_'");
+    throwUnreadable(path_, {"missing_part", "the '_' before its appended data"});
   appended = cursor.tell().offset;
   const std::uint64_t size = cursor.getFile().getSize();
   std::string end(std::min(tail_bytes, size - appended), '\0');
   cursor.getFile().read(size - end.size(), end.data(), end.size());
   const std::size_t found = end.rfind("</AppendedData");
   if (found == end.npos)
-    throwUnreadable(path_, "it is truncated: its appended data do not end");
+    throwUnreadable(path_, {"truncated_part", "the block of appended data"});
   appended_end = size - end.size() + found;
 }
 
@@ -258,7 +261,7 @@ TagCollector::collect()
     }
   }
   if (!has_grid)
-    throwUnreadable(path_, "it is not a VTK file of points");
+    throwUnreadable(path_, {"not_format", "a VTK file of points"});
 }
 
 } // namespace io

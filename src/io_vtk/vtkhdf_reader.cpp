@@ -220,8 +220,9 @@ VtkHdfReader::readNumbers(const std::string& name,
   if (!shape || shape->components != 1 || first > shape->rows ||
       count > shape->rows - first)
     throwUnreadable(path_,
-                    "it is truncated or damaged: it has no table " + quoteText(table) +
-                        " of " + std::to_string(count) + " numbers");
+                    {"missing_part",
+                     "the table " + quoteText(table) + " of " + std::to_string(count) +
+                         " numbers"});
   const auto column = file_.openColumn(table);
   const std::size_t size = datatypeSize(shape->datatype);
   std::vector<std::uint8_t> bytes;
@@ -247,7 +248,7 @@ VtkHdfReader::readEnds(const std::string& name,
 {
   std::vector<double> ends = readNumbers(name, first, cells + 1);
   if (ends[0] != 0.0)
-    throwUnreadable(path_, "its cells do not begin with their first corner");
+    throwUnreadable(path_, {"disagreeing_parts", "the offsets of its cells"});
   ends.erase(ends.begin());
   return ends;
 }
@@ -260,8 +261,7 @@ VtkHdfReader::firstCount(const std::string& name) const
     return 0;
   const double number = readNumbers(name, 0, 1)[0];
   if (!(number >= 0.0 && number <= UINT32_MAX))
-    throwUnreadable(
-        path_, "it is damaged: " + quoteText(inside(name)) + " begins with no count");
+    throwUnreadable(path_, {"invalid_part", "the count of " + quoteText(inside(name))});
   return static_cast<std::uint64_t>(number);
 }
 
@@ -344,9 +344,10 @@ VtkHdfReader::openPoints()
   const std::string table = inside("Points");
   const auto shape = file_.findShape(table);
   if (!shape || shape->components != 3)
-    throwUnreadable(path_,
-                    "it is truncated or damaged: it has no table " + quoteText(table) +
-                        " of three coordinates per point");
+    throwUnreadable(
+        path_,
+        {"missing_part",
+         "the table " + quoteText(table) + " of three coordinates per point"});
   const Step step = findStep();
   double points = 0.0;
   for (const double count : readNumbers("NumberOfPoints", step.first_part, step.parts))
@@ -356,9 +357,7 @@ VtkHdfReader::openPoints()
       static_cast<std::uint64_t>(points) > shape->rows - step.first_point ||
       (!is_series && static_cast<std::uint64_t>(points) < shape->rows))
     throwUnreadable(path_,
-                    "it is truncated or damaged: " + quoteText(table) + " has " +
-                        std::to_string(shape->rows) +
-                        " points, which are not those that 'NumberOfPoints' counts");
+                    {"wrong_count", quoteText(table), shape->rows, "points", points});
   const auto count = static_cast<std::uint64_t>(points);
   const auto steps = file_.readAttribute(inside("Steps"), "NSteps");
   if (!steps.empty() && steps[0] > 1.0)
@@ -380,9 +379,9 @@ VtkHdfReader::readLattice() const
     auto found = file_.readAttribute(group_, name);
     if (found.size() != count)
       throwUnreadable(path_,
-                      "it is truncated or damaged: its image has no " +
-                          std::string(name) + " of " + std::to_string(count) +
-                          " numbers");
+                      {"missing_part",
+                       std::string(name) + " of " + std::to_string(count) +
+                           " numbers in its image"});
     return found;
   };
   Lattice lattice;
@@ -392,7 +391,7 @@ VtkHdfReader::readLattice() const
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double size = extent[2 * axis + 1] - extent[2 * axis] + 1.0;
     if (!(size >= 1.0 && size * static_cast<double>(points) <= UINT32_MAX))
-      throwUnreadable(path_, "the extent of its image has no points, or too many");
+      throwUnreadable(path_, {"invalid_part", "the extent of its image"});
     lattice.sizes[axis] = static_cast<std::uint64_t>(size);
     points *= lattice.sizes[axis];
     lattice.first[axis] = extent[2 * axis];
@@ -441,16 +440,14 @@ std::unique_ptr<RecordSource>
 VtkHdfReader::openImage()
 {
   if (file_.hasGroup(inside("Steps")))
-    throwUnreadable(path_,
-                    "it contains images of several times; ParaView saves one of them "
-                    "as .vti");
+    throwUnreadable(path_, {"several_times", "images", ".vti"});
   const Lattice lattice = readLattice();
   columns_.push_back(
       {{"x", "y", "z"}, Type::FLOAT64, 3, std::make_unique<LatticeColumn>(lattice)});
   noteCells();
   addLayers(lattice);
   if (columns_.size() == 1) // nothing but memory would bound the points
-    throwUnreadable(path_, "its image has no numbers at its points");
+    throwUnreadable(path_, {"nothing_inside", "numbers at the points of its image"});
   return open(lattice.countPoints());
 }
 
@@ -458,9 +455,7 @@ std::vector<Triangle>
 VtkHdfReader::readTriangles() const
 {
   if (file_.hasGroup(inside("Steps")))
-    throwUnreadable(path_,
-                    "it contains meshes of several times; ParaView saves one of them "
-                    "as .vtp");
+    throwUnreadable(path_, {"several_times", "meshes", ".vtp"});
   const std::uint64_t parts = readRows("NumberOfPoints");
   const auto points = readNumbers("NumberOfPoints", 0, parts);
   std::vector<Triangle> triangles;
@@ -470,7 +465,7 @@ VtkHdfReader::readTriangles() const
   std::uint64_t point = 0, end = 0, corner = 0;
   for (std::size_t part = 0; part < points.size(); ++part) {
     if (!(polygons[part] >= 0.0 && polygons[part] < 0x1p53))
-      throwUnreadable(path_, "it is damaged: a count of its polygons is negative");
+      throwUnreadable(path_, {"invalid_part", "a count of its polygons"});
     const auto count = static_cast<std::uint64_t>(polygons[part]);
     const std::vector<double> ends = readEnds("Polygons/Offsets", end, count);
     end += count + 1;
@@ -502,25 +497,23 @@ VtkHdfReader::readCells(SampleTopology& topology) const
   for (std::size_t part = 0; part < points.size(); ++part) {
     for (const double count : {points[part], cells[part], corners[part]})
       if (!(count >= 0.0 && count <= UINT32_MAX))
-        throwUnreadable(path_,
-                        "it is damaged: a count of its parts is not a valid number");
+        throwUnreadable(path_, {"invalid_part", "a count of its parts"});
     const auto cell_count = static_cast<std::uint64_t>(cells[part]),
                corner_count = static_cast<std::uint64_t>(corners[part]);
     const std::vector<double> ends = readEnds("Offsets", offset, cell_count);
     if (countCorners(path_, ends) != corner_count)
-      throwUnreadable(path_, "it is damaged: its cells do not end with its corners");
+      throwUnreadable(path_, {"disagreeing_parts", "the offsets of its cells"});
     const std::uint64_t before = topology.corners.size();
     for (const double end : ends)
       topology.ends.push_back(before + static_cast<std::uint64_t>(end));
     for (const double type : readNumbers("Types", cell, cell_count)) {
       if (!(type >= 0.0 && type <= UINT8_MAX))
-        throwUnreadable(path_,
-                        "it is damaged: a type of its cells is not a valid number");
+        throwUnreadable(path_, {"invalid_part", "a type of its cells"});
       topology.types.push_back(static_cast<unsigned char>(type));
     }
     for (const double own : readNumbers("Connectivity", corner, corner_count)) {
       if (!(own >= 0.0 && own < points[part]))
-        throwUnreadable(path_, "it is damaged: a cell names a point that is not there");
+        throwUnreadable(path_, {"missing_target", "a cell", "a point"});
       topology.corners.push_back(point + static_cast<std::uint64_t>(own));
     }
     cell += cell_count;
@@ -540,16 +533,14 @@ isReadType(const std::string& type)
 [[noreturn]] void
 throwOtherType(const Hdf5File& file, const std::string& group, const std::string& type)
 {
-  std::string help = "; ParaView saves others as .vtu";
+  std::string part;
   for (const std::string& name : file.list(group))
     if (isReadType(file.readText(joinNames(group, name), "Type"))) {
-      help = "; behind the file a part of it can be named, as in file.vtkhdf:" +
-             quoteText(joinNames(group, name));
+      part = shortenText(joinNames(group, name));
       break;
     }
   throwUnreadable(file.getPath(),
-                  "its type is " + quoteText(type) +
-                      ", and PolyData, UnstructuredGrid and ImageData are read" + help);
+                  {"vtkhdf_type", shortenText(type), !part.empty(), part});
 }
 
 } // namespace

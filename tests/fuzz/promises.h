@@ -43,7 +43,7 @@ requireSentences(const std::vector<pcl_uvol::Message>& warnings)
 
 /** \brief Runs what may refuse its input, but only by this exception and with one
  * sentence.
- * \return the sentence, "" where it accepted */
+ * \return the code of the error, "" where it accepted */
 template <typename ExceptionT = pcl_uvol::Exception, typename Function>
 std::string
 refusalOf(const Function& function, const std::string& path = {})
@@ -53,7 +53,7 @@ refusalOf(const Function& function, const std::string& path = {})
   }
   catch (const ExceptionT& error) {
     requireSentence(error.message(), path);
-    return error.message();
+    return error.asMessage().code;
   }
   return {};
 }

@@ -4,6 +4,7 @@
 
 #include "common/scalar_field.h"
 #include "support/environment.h"
+#include "support/messages.h"
 #include <pcl_uvol/io/dataset.h>
 
 #include <gtest/gtest.h>

@@ -35,6 +35,12 @@ protected:
     return messageOf<IOError>([&] { loadDataset(path); });
   }
 
+  std::string
+  refusalOf(const std::string& path) const
+  {
+    return codeOf([&] { loadDataset(path); });
+  }
+
   void
   expectStreams(const std::string& path) const
   {
@@ -136,15 +142,15 @@ TEST_F(ArrayFiles, StructuredArraysKeepTheirNames)
 
 TEST_F(ArrayFiles, ArraysThatAreNoPointsAreRefused)
 {
-  for (const auto& [bytes, words] : std::vector<std::pair<std::string, const char*>>{
-           {npy("'<f4'", "(3,)") + std::string(12, '\0'), "a row per point"},
-           {npy("'<f4'", "(3, 2)") + std::string(24, '\0'), "a row per point"},
-           {npy("'<U4'", "(3, 3)") + std::string(200, '\0'), "type '<U4'"},
-           {npy("'<f4'", "(4611686018427387904, 3)"), "larger than"},
-           {npy("'<f4'", "(-1, 3)"), "does not describe"},
-           {npy("{", ")"), "does not describe"},
-           {"nothing that NumPy wrote", "not a NumPy array"}})
-    EXPECT_NE(std::string::npos, sentenceOf(save("a.npy", bytes)).find(words)) << words;
+  for (const auto& [bytes, code] : std::vector<std::pair<std::string, const char*>>{
+           {npy("'<f4'", "(3,)") + std::string(12, '\0'), "no_point_array"},
+           {npy("'<f4'", "(3, 2)") + std::string(24, '\0'), "no_point_array"},
+           {npy("'<U4'", "(3, 3)") + std::string(200, '\0'), "unsupported_value"},
+           {npy("'<f4'", "(4611686018427387904, 3)"), "truncated_part"},
+           {npy("'<f4'", "(-1, 3)"), "invalid_part"},
+           {npy("{", ")"), "invalid_part"},
+           {"nothing that NumPy wrote", "not_format"}})
+    EXPECT_EQ(code, refusalOf(save("a.npy", bytes))) << bytes;
 }
 
 TEST_F(ArrayFiles, NpzBringsEveryFieldBack)
@@ -185,7 +191,7 @@ TEST_F(ArrayFiles, PartsOfAZipDoNotShareTheirBytes)
   const std::string path = save(
       "a.npz",
       readFile(PCL_UVOL_SOURCE_DIR "/tests/fuzz/corpus/npz/one_part_under_many_names"));
-  EXPECT_NE(std::string::npos, sentenceOf(path).find("truncated, damaged or no zip"));
+  EXPECT_EQ("not_format", refusalOf(path));
 }
 
 /** A scan of three points in format `format`. */
@@ -343,9 +349,8 @@ TEST_F(ArrayFiles, LaserScansKeepTheirAttributes)
   damage("d.las", las(2, 1, 28));
   std::string packed = las(2, 1, 28);
   packed[104] = static_cast<char>(0x81);
-  EXPECT_NE(std::string::npos, sentenceOf(save("a.las", packed)).find("laszip"));
-  EXPECT_NE(std::string::npos,
-            sentenceOf(save("a.las", las(4, 11, 80))).find("formats 0 to 10"));
+  EXPECT_EQ("packed_points", refusalOf(save("a.las", packed)));
+  EXPECT_EQ("unsupported_value", refusalOf(save("a.las", las(4, 11, 80))));
 }
 
 /** The packing programs of the system make the files. */
@@ -373,16 +378,14 @@ TEST_F(ArrayFiles, PackedFilesAreThoseWithin)
       // Files of these programs may be joined: a header and rows, then rows.
       for (const std::size_t part :
            {std::size_t(1), bytes.size() / 2, bytes.size() - 1})
-        EXPECT_NE(std::string::npos,
-                  sentenceOf(save("cut." + std::string(name).substr(2) + ending,
-                                  bytes.substr(0, part)))
-                      .find("damaged or truncated"))
+        EXPECT_EQ("damaged_compression",
+                  refusalOf(save("cut." + std::string(name).substr(2) + ending,
+                                 bytes.substr(0, part))))
             << path << part;
     }
   }
-  EXPECT_NE(std::string::npos, messageOf<IOError>([&] {
-                                 saveDataset(folder_ / "b.ply.gz", dataset);
-                               }).find("not written"));
+  EXPECT_EQ("packed_output",
+            codeOf([&] { saveDataset(folder_ / "b.ply.gz", dataset); }));
 }
 
 TEST_F(ArrayFiles, JoinedPackedFilesAreReadToTheEnd)

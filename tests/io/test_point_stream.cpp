@@ -337,7 +337,7 @@ TEST(PointStream, DamageIsToldAsByLoading)
   }
   writeFile(folder / "more.pcd",
             "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 0\nDATA ascii\n1 2 3\n");
-  EXPECT_NE(streamErrorOf(folder / "more.pcd").find("more than the 0 points"),
+  EXPECT_NE(streamErrorOf(folder / "more.pcd").find("more than 0 points"),
             std::string::npos);
 }
 

@@ -67,6 +67,13 @@ complaintOf(const std::vector<std::string>& paths, std::size_t ranks)
   return "";
 }
 
+/** The code of the error, "" for files that are read. */
+std::string
+refusalOf(const std::vector<std::string>& paths)
+{
+  return codeOf<Exception>([&] { Parts(paths, 1); });
+}
+
 void
 expectComplaint(const std::string& text, const std::string& message)
 {
@@ -249,7 +256,7 @@ TEST(RankFiles, RefuseWhatDoesNotFitTogether)
                   complaintOf({folder / "none.vtp", folder / "none.vtp"}, 2));
   saveDataset(folder / "none.pcd", line(0, 0.0));
   expectComplaint("none.pcd has no points.", complaintOf({folder / "none.pcd"}, 2));
-  expectComplaint("no file matches", complaintOf({folder / "else_*.vtp"}, 1));
+  EXPECT_EQ("no_matching_file", refusalOf({folder / "else_*.vtp"}));
 }
 
 TEST(RankFiles, RefuseDamagedLists)
@@ -261,16 +268,16 @@ TEST(RankFiles, RefuseDamagedLists)
   const std::string list = readFile(folder / "out.pvtp");
   const std::string bad = folder / "bad.pvtp";
   writeFile(bad, list.substr(0, list.size() / 2));
-  expectComplaint("it is truncated", complaintOf({bad}, 1));
+  EXPECT_EQ("truncated_part", refusalOf({bad}));
   for (const std::string& text :
        {std::string("no XML"), std::string("<VTKFile type=\"PPolyData\"/>")}) {
     writeFile(bad, text);
-    expectComplaint("not a list of pieces", complaintOf({bad}, 1));
+    EXPECT_EQ("not_format", refusalOf({bad}));
   }
   writeFile(bad, "<VTKFile><PPolyData><Piece/></PPolyData></VTKFile>");
-  expectComplaint("not a list of pieces", complaintOf({bad}, 1));
+  EXPECT_EQ("missing_part", refusalOf({bad}));
   writeFile(bad, "<VTKFile><PPolyData/></VTKFile>");
-  expectComplaint("it lists no pieces", complaintOf({bad}, 1));
+  EXPECT_EQ("nothing_inside", refusalOf({bad}));
   writeFile(bad, "");
   EXPECT_NE("", complaintOf({bad}, 1));
   std::filesystem::remove(folder / "out_1.vtp");

@@ -395,8 +395,10 @@ def test_columns_that_are_none_get_a_sentence(tmp_path):
 
 
 def test_a_missing_file_is_an_oserror(tmp_path):
-    with pytest.raises(OSError, match="missing.ply"):
+    with pytest.raises(OSError) as refused:
         uvol.read(tmp_path / "missing.ply")
+    assert refused.value.code == "no_such_file"
+    assert refused.value.values == {"path": str(tmp_path / "missing.ply")}
 
 
 def test_columns_of_names_are_labels(tmp_path):

@@ -2,6 +2,7 @@
 // What messages hold, for tests: codes and values instead of words of their texts.
 #pragma once
 
+#include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/message.h>
 
 #include <gtest/gtest.h>
@@ -36,6 +37,28 @@ takeValue(const pcl_uvol::Message& message, const std::string& name, const T& ot
   ADD_FAILURE() << "The message '" << message.code << "' has no value '" << name
                 << "' of that kind.";
   return otherwise;
+}
+
+/** \brief What the error tells that this throws; without a code if it throws none. */
+template <typename Error = pcl_uvol::IOError, typename Function>
+pcl_uvol::Message
+thrownBy(Function&& function)
+{
+  try {
+    function();
+  }
+  catch (const Error& error) {
+    return error.asMessage();
+  }
+  return {"", {}};
+}
+
+/** \brief The code of the error that this throws; empty if it throws none. */
+template <typename Error = pcl_uvol::IOError, typename Function>
+std::string
+codeOf(Function&& function)
+{
+  return thrownBy<Error>(function).code;
 }
 
 /** \brief A number of a message; a missing one fails the test and is NaN. */

@@ -344,7 +344,7 @@ TEST_F(IsosurfaceMpi, EndsWithOneSentenceAndNoOutput)
   expectFailure(3, "'none_*.vtp'" + options, 1, "no file matches");
   expectFailure(3, "in.pcd out.pvtp -iso 0.4 -field speed", 1, "no field 'speed'");
   expectFailure(3, "in.pcd none/out.pvtp -iso 0.4", 1, "there is no folder");
-  expectFailure(3, "in.pcd out.doc -iso 0.4", 1, "'.doc' is not known");
+  expectFailure(3, "in.pcd out.doc -iso 0.4", 1, "points are written as");
   expectFailure(
       3, "in.pcd" + options + " -where 'label<0'", 1, "no points for which label<0");
 

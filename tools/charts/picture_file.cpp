@@ -143,7 +143,7 @@ checkPath(const std::string& path, const char* endings)
   else if (pcl_uvol::io::getEnding(path) == ".png")
     pcl_uvol::checkPngPath(path);
   else
-    pcl_uvol::io::throwUnwritable(path, endings);
+    pcl_uvol::io::throwUnwritable(path, {"unwritten_ending", "images", endings});
 }
 
 } // namespace
@@ -151,13 +151,13 @@ checkPath(const std::string& path, const char* endings)
 void
 checkPicturePath(const std::string& path)
 {
-  checkPath(path, "pictures are written as .png, .svg or .pdf");
+  checkPath(path, ".png, .svg or .pdf");
 }
 
 void
 checkDrawingPath(const std::string& path)
 {
-  checkPath(path, "pictures are written as .png, .svg or .pdf, web pages as .html");
+  checkPath(path, ".png, .svg or .pdf, and web pages as .html");
 }
 
 PictureFile::PictureFile(const std::string& path, double dots_per_inch)
@@ -183,7 +183,7 @@ PictureFile::save(const Image& picture,
     stream << page;
     stream.close();
     if (!stream)
-      throw pcl_uvol::IOError("Cannot write '" + path_ + "'.");
+      pcl_uvol::io::throwUnwritable(path_, "full_disk");
   });
 }
 

@@ -194,7 +194,7 @@ writeList(const std::vector<ListedFile>& written)
           << "\"/>\n";
     out << "</Collection>\n</VTKFile>\n";
     if (!out.flush())
-      pcl_uvol::io::throwUnwritable(list.string(), std::strerror(errno));
+      pcl_uvol::io::throwUnwritable(list.string(), pcl_uvol::io::systemError());
   });
   std::cerr << "ParaView opens all of them as " << list.string() << '\n';
 }
@@ -219,9 +219,8 @@ public:
         argument = NumberedName(argument).insert(number);
       const bool is_timed = argument.find(time_place) != std::string::npos;
       if (is_timed && !time)
-        throw pcl_uvol::IOError("'" + series_.input->insert(number) +
-                                "' has no header that names its time, which {t} "
-                                "represents.");
+        pcl_uvol::io::throwUnreadable(series_.input->insert(number),
+                                      {"no_time", time_place});
       if (is_timed)
         insertTime(printTime(*time), argument);
       if (is_numbered || (is_timed && timed_.insert(argument).second))

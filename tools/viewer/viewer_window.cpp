@@ -443,7 +443,10 @@ ViewerWindow::save(const std::string& path)
     writer->Write();
     if (writer->GetErrorCode() != vtkErrorCode::NoError)
       pcl_uvol::io::throwUnwritable(
-          path, vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode()));
+          path,
+          {"library_error",
+           "VTK",
+           vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode())});
   });
 }
 

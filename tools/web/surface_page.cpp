@@ -175,7 +175,7 @@ writeSurfacePage(const std::string& path,
            << text.substr(second + points_mark.size());
     stream.close();
     if (!stream)
-      pcl_uvol::io::throwUnwritable(path, std::strerror(errno));
+      pcl_uvol::io::throwUnwritable(path, pcl_uvol::io::systemError());
   });
 }
 

@@ -26,13 +26,15 @@ isOfMissingField(const Message& message)
          code == "unknown_operand";
 }
 
-/** \param message its code becomes an attribute, None where it is but a text */
+/** \param message its code and values become attributes; None and no values where it
+ * is but a text */
 void
 raise(const py::handle& type, const Message& message)
 {
   const py::object error = type(toText(message.text()));
-  error.attr("code") =
-      message.code == "text" ? py::object(py::none()) : toText(message.code);
+  const bool is_text = message.code == "text";
+  error.attr("code") = is_text ? py::object(py::none()) : toText(message.code);
+  error.attr("values") = is_text ? py::dict() : toDict(message)["values"];
   PyErr_SetObject(type.ptr(), error.ptr());
 }
 
