@@ -127,10 +127,9 @@ areGaps(std::size_t in_gaps, std::size_t isopoints)
 std::string
 tellWhyEmpty(const GapFilling& gaps, std::size_t kriged)
 {
-  const double width = samples_per_gap * gaps.spacing;
-  if (gaps.range < 0.5 * width)
+  if (gaps.range < 0.5 * gaps.width)
     return "the variogram range is " + describeNumbers({gaps.range})[0] +
-           ", less than half the gap width of " + describeNumbers({width})[0];
+           ", less than half the gap width of " + describeNumbers({gaps.width})[0];
   return kriged == 0 ? "kriging has no value in the gaps"
                      : "the kriged field does not cross the isovalue in the gaps";
 }
@@ -406,9 +405,9 @@ FilledGaps::findSpacing(const pcl::PointCloud<PointIso>& roots,
   summary_.unfilled = roots.empty() ? "there is no surface"
                       : has_gaps_ ? "there are too few samples to estimate their width"
                                   : "samples surround the surface";
-  const double width = has_gaps_ ? findGapWidth(sampling_, std::move(lengths)) : 0.0;
-  summary_.spacing = width / samples_per_gap;
-  reach_ = farthest_gaps * width;
+  summary_.width = has_gaps_ ? findGapWidth(sampling_, std::move(lengths)) : 0.0;
+  summary_.spacing = summary_.width / samples_per_gap;
+  reach_ = farthest_gaps * summary_.width;
   return is_in_gap;
 }
 

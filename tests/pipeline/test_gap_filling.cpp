@@ -370,6 +370,41 @@ TEST(GapFilling, FillsWhatLiesBetweenProfilesAndNothingAroundThem)
   EXPECT_EQ(inside, covered);
 }
 
+/** Tracks of a glider that turns once: dives are a third of a leg long. */
+TEST(GapFilling, StaysWithinHalfAGapOfTracks)
+{
+  const Eigen::Vector2d start(0.0, 0.0), turn(1.0, 0.0), end(1.0, 0.8);
+  pcl::PointCloud<pcl::PointXYZI> cloud;
+  uvol_test::Random random(6);
+  for (int i = 0; i < 960; ++i) {
+    const double way = (i + 0.3 * random.uniform()) / 480.0, part = way - (i / 480);
+    const Eigen::Vector2d place =
+        i < 480 ? start + part * (turn - start) : turn + part * (end - turn);
+    const double phase = 3.0 * way - std::floor(3.0 * way),
+                 z = 1.0 - std::abs(2.0 * phase - 1.0);
+    pcl::PointXYZI point;
+    point.x = static_cast<float>(place.x());
+    point.y = static_cast<float>(place.y());
+    point.z = static_cast<float>(z);
+    point.intensity = static_cast<float>(z - floorAt(place.x(), place.y()));
+    cloud.push_back(point);
+  }
+  const auto samples = std::make_shared<Dataset>();
+  pcl::toPCLPointCloud2(cloud, samples->cloud);
+  const auto result = uvol_test::runPipeline(samples, makeParameters(true));
+  const double width = result.gaps->width;
+  EXPECT_GT(width, 0.1);
+  EXPECT_LT(width, 0.5);
+  EXPECT_EQ(width, 4.0 * result.gaps->spacing);
+  const BruteForceHull hull({start, turn, end});
+  std::size_t predicted = 0;
+  for (const PointIso& point : uvol_test::toIsopoints(result)) {
+    predicted += isPredicted(point);
+    EXPECT_LE(hull.distanceOutside({point.x, point.y}), 0.5 * width);
+  }
+  EXPECT_GT(predicted, 50u);
+}
+
 /** Isopoints next to each other lie on each other's tangent planes, as on a surface
  * that bends over several of their distances: one that is put to the wrong side of the
  * root of its edge does not. */
@@ -421,7 +456,7 @@ TEST(GapFilling, LeavesOutIsopointsThatAreMovedOutOfTheHull)
   auto parameters = makeParameters(true);
   parameters.isosurface.isovalues = {-0.3, 0.0, 0.3};
   const auto result = uvol_test::runPipeline(samples, parameters);
-  const double most = 2.0 * result.gaps->spacing;
+  const double most = 0.5 * result.gaps->width;
   std::size_t predicted = 0;
   for (const PointIso& point : uvol_test::toIsopoints(result)) {
     if (!isPredicted(point))

@@ -97,9 +97,11 @@ describeGaps(const pcl_uvol::GapFilling& gaps)
     text << "none filled: " << gaps.unfilled;
   else
     text << gaps.predicted << " samples predicted by kriging, spacing " << gaps.spacing
-         << ", within the range " << gaps.range << " of a spherical variogram (nugget "
-         << gaps.nugget << ", partial sill " << gaps.psill << ")";
+         << " (gaps " << gaps.width << " wide), within the range " << gaps.range
+         << " of a spherical variogram (nugget " << gaps.nugget << ", partial sill "
+         << gaps.psill << ")";
   const std::vector<Fact> members{{"predicted", static_cast<double>(gaps.predicted)},
+                                  {"width", gaps.width},
                                   {"spacing", gaps.spacing},
                                   {"range", gaps.range},
                                   {"nugget", gaps.nugget},

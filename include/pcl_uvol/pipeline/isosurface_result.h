@@ -79,8 +79,8 @@ struct ValidationScore {
 
 /** \brief How gaps of the sampling were filled: around the isosurfaces, by samples that
  * ordinary kriging predicts from the means of measured ones in cells as long as the
- * spacing of predicted ones. They lie in the convex hull of the measured ones, or half
- * a gap outside of it, which is at most two spacings. Lengths are in units of the
+ * spacing of predicted ones. They lie in the convex hull of the measured ones, or at
+ * most half of the width of a gap outside of it. Lengths are in units of the
  * stretched space; the variogram is that of the means, of mean roots of differences
  * (Cressie and Hawkins 1980), or of the samples where there was no gap.
  *
@@ -92,8 +92,10 @@ struct ValidationScore {
  * isopoints of confidence 0 are left out. */
 struct GapFilling {
   std::size_t predicted = 0; ///< samples; 0: there was no gap, or it was not filled
-  double spacing = 0.0;      ///< between them; 0: no gap, or none whose width is known
-  std::string unfilled;      ///< why there are none: part of a sentence
+  double width = 0.0;        ///< of a gap; 0: no gap, or none whose width is known
+  double spacing = 0.0; ///< between samples: a quarter of the width, or more if these
+                        ///< were too many
+  std::string unfilled; ///< why there are none: part of a sentence
   /** The range of the spherical variogram; no predicted sample is farther from a
    * measured one. */
   double range = 0.0;
@@ -144,8 +146,9 @@ struct PCL_UVOL_EXPORTS IsosurfaceResult {
   std::optional<GapFilling> gaps;          ///< if they were to be filled
   std::vector<ValidationScore> validation; ///< one per isovalue, if asked for
   /** Counts, times and warnings of IsosurfaceExtraction or SurfaceMesh,
-   * LevelSetEvolution and SurfaceNormalEstimation, and "removed_by_error" and
-   * "removed_bridged"; "bridged", "rim" and "predicted" count what is left. */
+   * LevelSetEvolution and SurfaceNormalEstimation, and "unlocated",
+   * "removed_by_error" and "removed_bridged"; "bridged", "rim" and "predicted" count
+   * what is left. */
   Report report;
 };
 

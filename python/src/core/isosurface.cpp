@@ -110,6 +110,7 @@ describe(const IsosurfaceResult& result)
     py::dict gaps;
     gaps["predicted"] = result.gaps->predicted;
     gaps["unfilled"] = result.gaps->unfilled;
+    gaps["width"] = result.gaps->width;
     gaps["spacing"] = result.gaps->spacing;
     gaps["range"] = result.gaps->range;
     gaps["nugget"] = result.gaps->nugget;
