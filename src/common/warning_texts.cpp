@@ -458,8 +458,8 @@ const MessageText warning_rows[] = {
      "positive there and have no logarithm."},
     {"unconstrained_measures",
      "{percent} % of the surface is between lines of samples or next to gaps. Its "
-     "measures are not constrained. Try: {-block dx,dy,dz} for volumes without a "
-     "surface."},
+     "measures are not constrained. Try: {-block dx,dy,dz} for volumes, or contour "
+     "cells."},
     {"no_triangles",
      "{surface} has no triangles. Distances to its points are used, which are limited "
      "by the point spacing."},

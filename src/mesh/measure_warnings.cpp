@@ -105,15 +105,17 @@ warnOfSupport(const CloudView& vertices, Report& report)
 {
   const auto support = findScalar(vertices, "support"),
              cap = findScalar(vertices, "cap");
-  std::size_t weak = 0;
+  std::size_t weak = 0, all = 0;
   for (std::size_t i = 0; support && i < vertices.count; ++i) {
+    if (cap && cap->read(vertices.point(i)) > 0.0)
+      continue;
     const double kind = support->read(vertices.point(i));
-    const bool is_weak = kind == static_cast<double>(IsoSupport::Bridged) ||
-                         kind == static_cast<double>(IsoSupport::Rim);
-    weak += is_weak && !(cap && cap->read(vertices.point(i)) > 0.0);
+    weak += kind == static_cast<double>(IsoSupport::Bridged) ||
+            kind == static_cast<double>(IsoSupport::Rim);
+    ++all;
   }
-  if (2 * weak > vertices.count)
-    report.warn("unconstrained_measures", {{"percent", 100 * weak / vertices.count}});
+  if (2 * weak > all)
+    report.warn("unconstrained_measures", {{"percent", 100 * weak / all}});
 }
 
 void

@@ -233,6 +233,21 @@ INSTANTIATE_TEST_SUITE_P(RealData,
                          testing::ValuesIn(smallDataSets()),
                          nameOf);
 
+/** A can of finite elements whose wall is two layers of nodes: the mesh closes the
+ * hollow as well. The contour of the cells at 3000 encloses 44. */
+TEST(RealData, MeasuresOfAThinWallAreCoveredOrNotConstrained)
+{
+  if (uvol_test::dataFolder().empty())
+    GTEST_SKIP() << "the folder of real data is not there ($PCL_UVOL_DATA)";
+  const uvol_test::TemporaryFolder folder;
+  const auto result = runCommand("uvol_isosurface '" + uvol_test::dataFolder() +
+                                 "/cfd/can.vtu' '" + (folder / "out.ply") +
+                                 "' -field '|VEL|' -iso 3000 -mesh -measure -json");
+  ASSERT_EQ(0, result.exit_code) << result.err;
+  EXPECT_TRUE(uvol_test::tellsOf(result, "unconstrained_measures"));
+  EXPECT_TRUE(uvol_test::tellsOf(result, "uncertain_measures"));
+}
+
 class OnRealVolumes
     : public testing::TestWithParam<std::pair<const char*, const char*>> {};
 
