@@ -229,6 +229,10 @@ const MessageText warning_rows[] = {
     {"contradicted_isopoints",
      "{removed} of {isopoints} isopoints were removed: their 8 nearest samples are on "
      "one side of the isovalue. Try: {-interpolation fit} to keep them."},
+    {"unlocated_isopoints",
+     "{removed} of {isopoints} isopoints were removed: in gaps, their errors exceed "
+     "the distance to better ones. Try: {gaps|{-fill-gaps}, or |}{-interpolation fit} "
+     "to keep them."},
     {"few_isopoints_left",
      "Only {left} of {isopoints} isopoints remain after "
      "{by_error|{-max-error}{by_support| and {-drop-bridged}|}|{-drop-bridged}}. The "

@@ -122,6 +122,12 @@ public:
     return communicator_;
   }
 
+  bool
+  removesUnlocated(const IsosurfacePipelineParameters&) const override
+  {
+    return interpolation_ == Interpolation::Auto;
+  }
+
   void
   leave(const IsosurfacePipelineParameters&, IsosurfaceResult& result) override
   {

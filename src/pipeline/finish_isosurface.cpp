@@ -161,7 +161,8 @@ finishIsosurface(const Dataset& samples,
                  unsigned threads,
                  Report&& report,
                  SurfaceRole role,
-                 const detail::FilledGaps* gaps)
+                 const detail::FilledGaps* gaps,
+                 bool removes_unlocated)
 {
   const CloudView view = viewOf(samples.cloud);
   pcl::PointCloud<PointIso>& isopoints = found.vertices;
@@ -177,8 +178,15 @@ finishIsosurface(const Dataset& samples,
     gaps->judge(parameters, threads, isopoints, edges, choice, report);
   const SupportedIsopoints known(
       view, parameters.isosurface, sampling, gaps ? &gaps->getSummary() : nullptr);
-  const DroppedIsopoints dropped =
-      dropIsopoints(isopoints, edges, choice, parameters, known, report);
+  const DroppedIsopoints dropped = dropIsopoints(isopoints,
+                                                 edges,
+                                                 choice,
+                                                 parameters,
+                                                 known,
+                                                 removes_unlocated,
+                                                 communicator,
+                                                 threads,
+                                                 report);
   if (!parameters.mesh) // which has counted vertices that are not on caps
     countSupports(isopoints,
                   withErrors(parameters).interpolation != Interpolation::Linear,

@@ -27,7 +27,8 @@ class FilledGaps;
  * warned of together, by all processes
  * \param threads 0: all cores
  * \param report continued
- * \param gaps of the samples; null if they were not filled */
+ * \param gaps of the samples; null if they were not filled
+ * \param removes_unlocated isopoints in gaps, see SampleStore */
 IsosurfaceResult
 finishIsosurface(const Dataset& samples,
                  SurfaceTriangles&& found,
@@ -37,6 +38,7 @@ finishIsosurface(const Dataset& samples,
                  unsigned threads,
                  Report&& report,
                  SurfaceRole role = SurfaceRole::Isosurface,
-                 const detail::FilledGaps* gaps = nullptr);
+                 const detail::FilledGaps* gaps = nullptr,
+                 bool removes_unlocated = false);
 
 } // namespace pcl_uvol

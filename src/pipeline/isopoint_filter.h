@@ -14,19 +14,25 @@ namespace pcl_uvol {
 
 /** \brief Isopoints that were dropped. */
 struct DroppedIsopoints {
+  std::uint64_t unlocated = 0;  ///< in gaps, where nothing locates them
   std::uint64_t by_error = 0;   ///< by max_error
   std::uint64_t by_support = 0; ///< by drop_bridged
 };
 
-/** \brief Leave out what belongs to images, and what max_error and drop_bridged do not
- * want: counted as "removed_by_error" and "removed_bridged".
- * \param known what an automatic bound of the error keeps */
+/** \brief Leave out what belongs to images, isopoints in gaps that nothing
+ * locates, and what max_error and drop_bridged do not want: counted as "unlocated",
+ * "removed_by_error" and "removed_bridged". By all processes together.
+ * \param known what an automatic bound of the error keeps
+ * \param removes_unlocated whether those that nothing locates are left out */
 DroppedIsopoints
 dropIsopoints(pcl::PointCloud<PointIso>& isopoints,
               IsoEdges& edges,
               IsopointChoice& choice,
               const IsosurfacePipelineParameters& parameters,
               const SupportedIsopoints& known,
+              bool removes_unlocated,
+              Communicator& communicator,
+              unsigned threads,
               Report& report);
 
 /** \brief Warn where most isopoints do not rest on samples around them. */

@@ -3,6 +3,7 @@
 
 #include "common/sample_checks.h"
 #include "pipeline/finish_isosurface.h"
+#include "pipeline/isopoint_choice.h"
 #include <pcl_uvol/common/map_projection.h>
 
 #include <cstdint>
@@ -29,11 +30,18 @@ runIsosurface(SampleStore& store,
                                              threads,
                                              std::move(report),
                                              SurfaceRole::Isosurface,
-                                             store.getGaps());
+                                             store.getGaps(),
+                                             store.removesUnlocated(entered));
   result.level_sets = std::move(surface.level_sets);
   store.leave(entered, result);
   setGlobeFields(result.surface);
   return result;
+}
+
+bool
+SampleStore::removesUnlocated(const IsosurfacePipelineParameters& entered) const
+{
+  return returnsToEdges(entered);
 }
 
 void

@@ -42,6 +42,12 @@ public:
   virtual Communicator&
   getCommunicator() = 0;
 
+  /** \brief Whether isopoints in gaps that nothing locates are removed: by default
+   * with Interpolation::Auto, unless a level set or a mesh keeps them.
+   * \param entered parameters that were entered with */
+  virtual bool
+  removesUnlocated(const IsosurfacePipelineParameters& entered) const;
+
   /** \brief The gaps that were filled; null if none were. */
   virtual const detail::FilledGaps*
   getGaps() const

@@ -47,18 +47,25 @@ public:
   /** \param isopoints one isovalue after another
    * \return one per isopoint: 1 if it is known */
   std::vector<std::uint8_t>
-  find(const pcl::PointCloud<PointIso>& isopoints, const IsoEdges& edges) const;
+  find(const pcl::PointCloud<PointIso>& isopoints,
+       const IsoEdges& edges,
+       unsigned threads) const;
 
 private:
-  /** \param is_jump whether values jump along its edge */
+  /** \param is_jump whether values jump along its edge
+   * \param spacing of the samples at the ends of such edges */
   bool
-  contain(const PointIso& point, const IsoEdge& edge, bool is_jump) const;
+  contain(const PointIso& point,
+          const IsoEdge& edge,
+          bool is_jump,
+          float spacing) const;
 
   const CloudView& samples_;
   std::string field_;
   Eigen::Array3f scale_;
   bool lies_all_around_;
   float half_gap_ = 0.0f; ///< in the stretched space; 0: there are no gaps
+  float along_ = 0.0f;    ///< spacing in lines or sheets; 0: samples are all around
   float longest_ = 0.0f;  ///< edge in a line or a sheet
 };
 

@@ -11,6 +11,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -288,6 +290,46 @@ TEST(IsopointChoice, IsToldAfterLevelSetsAndInMeshes)
     EXPECT_EQ(points.size() - fits,
               countValue(result, "orientation", parameters.mesh ? 1 : 3));
   }
+}
+
+/** No error of an isopoint in a gap holds that of the nearest isopoint in none. */
+TEST(IsopointChoice, RemovesIsopointsInGapsThatNothingLocates)
+{
+  auto parameters = makeParameters(Interpolation::Auto);
+  parameters.isosurface.isovalues = {-0.1, 0.0, 0.1};
+  const auto result = uvol_test::runPipeline(makeProfiles(30), parameters);
+  const auto points = uvol_test::toIsopoints(result);
+  const auto is_bridged = [](const PointIso& point) {
+    return point.support == static_cast<std::uint8_t>(IsoSupport::Bridged);
+  };
+  for (const PointIso& point : points) {
+    if (!is_bridged(point))
+      continue;
+    const PointIso* nearest = nullptr;
+    float distance = std::numeric_limits<float>::infinity();
+    for (const PointIso& other : points)
+      if (const float length = (other.getVector3fMap() - point.getVector3fMap()).norm();
+          !is_bridged(other) && other.isovalue == point.isovalue && length < distance) {
+        nearest = &other;
+        distance = length;
+      }
+    ASSERT_NE(nullptr, nearest);
+    EXPECT_LE(point.error, 1.0001f * (distance + nearest->error));
+  }
+  const auto removed = result.report.getCount("unlocated");
+  EXPECT_GT(removed, 50u);
+  EXPECT_EQ(result.report.getCount("edges"),
+            points.size() + removed + result.report.getCount("contradicted"));
+  const auto told = uvol_test::findWarning(result, "unlocated_isopoints");
+  ASSERT_TRUE(told);
+  EXPECT_EQ(static_cast<double>(removed), uvol_test::numberOf(*told, "removed"));
+  EXPECT_EQ(1.0, uvol_test::numberOf(*told, "gaps"));
+  parameters.isosurface.interpolation = Interpolation::Fit;
+  const auto fits = uvol_test::runPipeline(makeProfiles(30), parameters);
+  EXPECT_EQ(0u, fits.report.getCount("unlocated"));
+  const auto dense = extractAt(makeSphere(20000), 0.0);
+  EXPECT_EQ(0u, dense.report.getCount("unlocated"));
+  EXPECT_FALSE(uvol_test::findWarning(dense, "unlocated_isopoints"));
 }
 
 TEST(IsopointChoice, EdgeNormalsAreCovectorsOfTheStretchedSpace)

@@ -2,6 +2,7 @@
 // One coordinate system for all files of a command, and degrees of what it writes.
 #include "support/environment.h"
 #include "support/messages.h"
+#include "tools/json_warnings.h"
 #include "tools/tool_test.h"
 #include <pcl_uvol/common/map_projection.h>
 #include <pcl_uvol/io/dataset.h>
@@ -11,6 +12,8 @@
 #include <cmath>
 #include <filesystem>
 #include <iomanip>
+#include <limits>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -192,6 +195,80 @@ TEST_F(Maps, ValuesAtPositionsOfAGlider)
   for (const double value : values)
     found += std::isfinite(value);
   EXPECT_GE(10 * found, 9 * values.size());
+}
+
+/** A track of a glider that crosses the isotherm 22 times, between depths of 67 and 86
+ * m. */
+class GliderIsotherm : public Maps {
+protected:
+  void
+  SetUp() override
+  {
+    glider_ = wildFile("real/pyglider_eva035_timeseries.nc");
+    if (glider_.empty())
+      GTEST_SKIP() << "the file of a glider is not there ($PCL_UVOL_DATA)";
+  }
+
+  /** The isopoints are in out.csv. */
+  nlohmann::json
+  extract(const std::string& options) const
+  {
+    const auto result = runTool("isosurface '" + glider_ +
+                                "' out.csv -field temperature -iso 8 -json " + options);
+    EXPECT_EQ(0, result.exit_code) << result.err;
+    return nlohmann::json::parse(result.out);
+  }
+
+  /** How many isopoints there are. */
+  std::size_t
+  expectAtTheIsotherm() const
+  {
+    const auto heights = fieldOf(load("out.csv"), "z");
+    for (const double z : heights) {
+      EXPECT_LT(-93.0, z);
+      EXPECT_GT(-66.0, z);
+    }
+    return heights.size();
+  }
+
+  std::string glider_;
+};
+
+TEST_F(GliderIsotherm, HasNoIsopointThatMayBeAnywhere)
+{
+  const auto report = extract("");
+  EXPECT_GE(expectAtTheIsotherm(), 22u);
+  EXPECT_GT(report["counts"]["unlocated"], 0);
+  EXPECT_TRUE(uvol_test::hasWarning(report, "unlocated_isopoints"));
+}
+
+TEST_F(GliderIsotherm, KeepsCrossingsWhereSamplesAreFarApart)
+{
+  extract("-scale auto -max-error auto");
+  EXPECT_GE(expectAtTheIsotherm(), 10u);
+}
+
+TEST_F(GliderIsotherm, EndsHalfAGapOutsideOfTheHull)
+{
+  const auto report = extract("-fill-gaps");
+  EXPECT_GE(expectAtTheIsotherm(), 100u);
+  const double half_gap = 0.5 * report["gaps"]["width"].get<double>();
+  const Dataset samples = loadDataset(glider_), isopoints = load("out.csv");
+  // By supporting planes, in the space where gaps are measured.
+  for (int angle = 0; angle < 360; ++angle) {
+    const double radians = angle * std::acos(-1.0) / 180.0;
+    const auto farthest = [&](const Dataset& points) {
+      const auto x = fieldOf(points, "x"), y = fieldOf(points, "y");
+      double most = -std::numeric_limits<double>::infinity();
+      for (std::size_t i = 0; i < x.size(); ++i)
+        most =
+            std::fmax(most,
+                      x[i] * report["scale"][0].get<double>() * std::cos(radians) +
+                          y[i] * report["scale"][1].get<double>() * std::sin(radians));
+      return most;
+    };
+    EXPECT_LE(farthest(isopoints), farthest(samples) + half_gap) << angle;
+  }
 }
 
 TEST_F(Maps, TwoLostFixesDoNotChangeAVolume)
