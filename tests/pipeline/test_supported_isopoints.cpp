@@ -156,31 +156,29 @@ TEST(SupportedIsopoints, AreCrossingsWithLines)
   EXPECT_LT(count(true, false), count(false, false) / 10);
 }
 
-/** Where the surface crosses the profiles, samples are 16 times as far apart as most
- * of them are. */
+/** Where the surface crosses 40 profiles, samples are 16 times as far apart as most of
+ * them are. By their errors alone 13 crossings are known. */
 TEST(SupportedIsopoints, AreCrossingsWithUnevenLines)
 {
   uvol_test::Random random(8);
   pcl::PointCloud<pcl::PointXYZI> cloud;
   for (int profile = 0; profile < 40; ++profile) {
-    const auto x = static_cast<float>(random.uniform()),
-               y = static_cast<float>(random.uniform());
+    const double x = 10.0 * random.uniform(), y = 10.0 * random.uniform();
     for (int i = 0; i < 100; ++i) {
+      const double z = i < 80 ? 0.001 * i : 0.08 + 0.016 * (i - 80);
       pcl::PointXYZI point;
-      point.x = x;
-      point.y = y;
-      point.z = i < 80 ? 0.001f * static_cast<float>(i)
-                       : 0.08f + 0.016f * static_cast<float>(i - 80);
-      point.intensity = point.z + 0.05f * x - 0.2f;
+      point.x = static_cast<float>(x);
+      point.y = static_cast<float>(y);
+      point.z = static_cast<float>(z);
+      point.intensity = static_cast<float>(z + 0.01 * std::sin(x * y) - 0.2);
       cloud.push_back(point);
     }
   }
-  const auto isopoints = uvol_test::toIsopoints(extract(toDataset(cloud), 0.0, true));
   std::size_t on_lines = 0;
-  for (const PointIso& point : isopoints)
+  for (const PointIso& point :
+       uvol_test::toIsopoints(extract(toDataset(cloud), 0.0, true)))
     on_lines += point.edge_length < 0.017f;
-  EXPECT_EQ(40u, on_lines);
-  EXPECT_LT(isopoints.size(), 60u);
+  EXPECT_GE(on_lines, 30u);
 }
 
 /** How far outliers lie beyond other values, and how many there are. */
