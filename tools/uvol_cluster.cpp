@@ -224,7 +224,7 @@ describeSizes(const std::map<std::int32_t, std::size_t>& sizes)
 
 /** People read the first sizes, programs all of them. */
 void
-tellSizes(const std::vector<std::int32_t>& labels, Facts& facts)
+listSizes(const std::vector<std::int32_t>& labels, Facts& facts)
 {
   const auto sizes = countMembers(labels);
   Fact::Numbers names, members;
@@ -303,7 +303,7 @@ run(int argc, char** argv)
   std::vector<pcl_uvol::ClusterNode> tree;
   const auto labels = findLabels(options, arguments, dataset, tree, report);
   Facts facts = {{"input", arguments.input}, {"output", arguments.output}};
-  tellSizes(labels, facts);
+  listSizes(labels, facts);
   if (!arguments.attributes.areGiven())
     countLabels(labels, report);
   if (!arguments.cluster.empty())

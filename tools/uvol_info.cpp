@@ -343,7 +343,7 @@ checkOutput(const Arguments& arguments)
 /** Tell of each file, of those behind one that fails as well.
  * \return the exit code of the first one that fails */
 int
-tellAll(const Options& options, const Arguments& arguments)
+describeAll(const Options& options, const Arguments& arguments)
 {
   int exit_code = 0;
   const char* before = "";
@@ -393,7 +393,7 @@ run(int argc, char** argv, uvol_tools::SeriesStep* /*step*/)
     return 0;
   arguments.scale.finish(options);
   checkOutput(arguments);
-  return tellAll(options, arguments);
+  return describeAll(options, arguments);
 }
 
 } // namespace

@@ -108,7 +108,7 @@ struct Job {
   }
 
   void
-  tell()
+  print()
   {
     facts.push_back(memory ? memory->describe()
                            : describeBound(static_cast<double>(bound)));
@@ -142,13 +142,13 @@ run(int argc, char** argv, uvol_tools::SeriesStep* step)
                        std::move(surface),
                        [job](const auto& waiting) {
                          job->draw(waiting);
-                         job->tell();
+                         job->print();
                        });
     return 0;
   }
   if (is_drawn)
     job->draw(surface);
-  job->tell();
+  job->print();
   return 0;
 }
 

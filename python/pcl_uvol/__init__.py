@@ -14,7 +14,7 @@ from ._files import read, read_mesh, read_volume, write
 from ._interpolation import Answers, Interpolator
 from ._lattice import Lattice
 from ._map import Map
-from ._measures import (Comparison, Distances, FieldDifference, FieldFigures, Figure, Measures, PieceFigures, compare,
+from ._measures import (Comparison, Distances, FieldDifference, FieldMeasures, Figure, Measures, PieceMeasures, compare,
                         measure)
 from ._pictures import Picture, raytrace
 from ._samples import Samples
@@ -31,7 +31,7 @@ __all__ = [
     "Extractor",
     "FieldDifference",
     "FieldError",
-    "FieldFigures",
+    "FieldMeasures",
     "Figure",
     "Interpolator",
     "Lattice",
@@ -39,7 +39,7 @@ __all__ = [
     "Measures",
     "Mesh",
     "Picture",
-    "PieceFigures",
+    "PieceMeasures",
     "Projection",
     "ResultWarning",
     "Samples",

@@ -92,7 +92,7 @@ class FieldError(KeyError):
     code: str | None
     values: dict[str, float | str]
 
-class FieldFigures(NamedTuple):
+class FieldMeasures(NamedTuple):
     mean: float
     integral: Figure
     sum: float
@@ -134,9 +134,9 @@ class Lattice:
     def __getitem__(self, name: str) -> np.ndarray: ...
     def __iter__(self) -> Iterator[str]: ...
 
-class Measures(PieceFigures):
-    isovalues: list[PieceFigures]
-    pieces: list[PieceFigures]
+class Measures(PieceMeasures):
+    isovalues: list[PieceMeasures]
+    pieces: list[PieceMeasures]
     vertex_areas: np.ndarray
     piece_of: np.ndarray
     report: dict[str, Any]
@@ -156,7 +156,7 @@ class Picture:
     parameters: dict[str, Any]
     def save(self, path: str | os.PathLike[str], dpi: float = ...) -> None: ...
 
-class PieceFigures:
+class PieceMeasures:
     isovalue: float
     vertices: int
     triangles: int
@@ -174,8 +174,8 @@ class PieceFigures:
     half_axes: np.ndarray
     low: np.ndarray
     high: np.ndarray
-    on_surface: dict[str, FieldFigures]
-    inside: dict[str, FieldFigures]
+    on_surface: dict[str, FieldMeasures]
+    inside: dict[str, FieldMeasures]
 
 class Projection:
     places: np.ndarray

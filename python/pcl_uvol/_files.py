@@ -65,7 +65,7 @@ def read(path, xyz=("", "", ""), particles="", cells=False, progress=None, map=N
     with listening(progress) as listener:
         dataset = _io.read(os.fsencode(path), columns, _parameters.text(str(particles), "particles"), _parameters.flag(cells, "cells"),
                            _map.wanted(map), listener)
-    _report.tell(dataset.notes)
+    _report.warn(dataset.notes)
     samples = Samples._of(dataset)
     if str(path) != "-":
         place = os.path.abspath(os.fsencode(path))
@@ -153,7 +153,7 @@ def read_mesh(path, map=None):
     """
     from . import _io
     dataset, triangles = _io.read_mesh(os.fsencode(path), _map.wanted(map))
-    _report.tell(dataset.notes)
+    _report.warn(dataset.notes)
     return Samples._of(dataset), triangles
 
 

@@ -149,7 +149,7 @@ class Interpolator:
             self._core = _core.Interpolator(samples._dataset, self._own, self._sides, _parameters.to_json(parameters),
                                             cells, self._threads, listener)
         self.fields = self._core.names
-        _report.tell(self._core.report["warnings"])
+        _report.warn(self._core.report["warnings"])
 
     @property
     def parameters(self):
@@ -210,7 +210,7 @@ class Interpolator:
             raise ValueError(f"queries has the shape {places.shape}: it must be (..., 3), a row for each place.")
         with listening(progress) as listener:
             found = self._core.answer(places.reshape(-1, 3), self._threads_of(threads), listener)
-        _report.tell(found["report"]["warnings"])
+        _report.warn(found["report"]["warnings"])
         return Answers(found, places.shape[:-1], self._is_single, self.parameters)
 
     @_parameters.with_proposals
@@ -263,7 +263,7 @@ class Interpolator:
         points = as_samples(points, None)._on_map_of(self._placed)
         with listening(progress) as listener:
             dataset, report = self._core.probe(points._dataset, self._threads_of(threads), listener)
-        _report.tell(report["warnings"])
+        _report.warn(report["warnings"])
         return Samples._of(dataset, report, self.parameters)
 
     @_parameters.with_proposals
@@ -296,7 +296,7 @@ class Interpolator:
         with listening(progress) as listener:
             scores, report = self._core.validate(_parameters.count(folds, "folds"), _parameters.text(by, "by"), self._threads_of(threads),
                                                  listener)
-        _report.tell(report["warnings"])
+        _report.warn(report["warnings"])
         return scores
 
     @_parameters.with_proposals
@@ -405,7 +405,7 @@ class Interpolator:
     def _fill(self, places, counts, steps, threads, progress):
         with listening(progress) as listener:
             found = self._core.answer(places, self._threads_of(threads), listener)
-        _report.tell(found["report"]["warnings"])
+        _report.warn(found["report"]["warnings"])
         columns = {}
         for number, name in enumerate(self.fields):
             columns[name] = found["values"][number]

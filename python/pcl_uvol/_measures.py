@@ -32,7 +32,7 @@ class Figure(NamedTuple):
         return f"{value} +- {error}" if np.isfinite(self.value) else value
 
 
-class FieldFigures(NamedTuple):
+class FieldMeasures(NamedTuple):
     """A field on a surface, or inside of it.
 
     Examples
@@ -49,7 +49,7 @@ class FieldFigures(NamedTuple):
     sum: float  #: over the samples inside, of masses their mass; NaN on the surface
 
 
-class PieceFigures:
+class PieceMeasures:
     """Figures of a surface or of a piece of it, in units of the coordinates.
 
     Attributes
@@ -71,7 +71,7 @@ class PieceFigures:
         the same second moments.
     low, high : numpy.ndarray, shape (3,)
         Bounds of the vertices.
-    on_surface, inside : dict of str to FieldFigures
+    on_surface, inside : dict of str to FieldMeasures
         By field.
     samples : int
         Samples inside.
@@ -105,12 +105,12 @@ class PieceFigures:
         return f"{type(self).__name__}: area {self.area}, volume {self.volume}, genus {self.genus}"
 
 
-class Measures(PieceFigures):
+class Measures(PieceMeasures):
     """Figures of a mesh: those of all isovalues together where there is one.
 
     Attributes
     ----------
-    isovalues, pieces : list of PieceFigures
+    isovalues, pieces : list of PieceMeasures
         Of each isovalue, and of each connected piece of it by falling size.
     vertex_areas : numpy.ndarray, shape (n,)
         Shares of the vertices in the area: sums over them are integrals.
@@ -132,8 +132,8 @@ class Measures(PieceFigures):
 
     def __init__(self, isovalues, pieces, vertex_areas, piece_of, report, parameters):
         super().__init__(isovalues[0])
-        self.isovalues = [PieceFigures(figures) for figures in isovalues]
-        self.pieces = [PieceFigures(figures) for figures in pieces]
+        self.isovalues = [PieceMeasures(figures) for figures in isovalues]
+        self.pieces = [PieceMeasures(figures) for figures in pieces]
         self.vertex_areas = vertex_areas
         self.piece_of = piece_of
         self.report = report
@@ -141,7 +141,7 @@ class Measures(PieceFigures):
 
 
 def _fields(figures):
-    return {name: FieldFigures(field["mean"], Figure(*field["integral"]), field.get("sum", float("nan")))
+    return {name: FieldMeasures(field["mean"], Figure(*field["integral"]), field.get("sum", float("nan")))
             for name, field in figures.items()}
 
 
@@ -204,7 +204,7 @@ def measure(surface, *, samples=None, curved=True, find_intersections=False, dro
                                 _parameters.to_json(parameters), _parameters.count(threads, "threads"), listener)
     if not figures[0]:
         raise ValueError("None of the triangles has three different corners: there is nothing to measure.")
-    _report.tell(figures[-1]["warnings"])
+    _report.warn(figures[-1]["warnings"])
     known = {np.float32(value): value for value in getattr(surface, "report", {}).get("isovalues", [])}
     for figure in figures[0] + figures[1]:  # vertices have them in single precision
         figure["isovalue"] = known.get(np.float32(figure["isovalue"]), figure["isovalue"])
@@ -318,5 +318,5 @@ def compare(a, b, *, threads=0, progress=None):
     with listening(progress) as listener:
         forth, back, surface, warnings = _core.compare(first._dataset, first_triangles, second._dataset,
                                                        second_triangles, _parameters.count(threads, "threads"), listener)
-    _report.tell(warnings)
+    _report.warn(warnings)
     return Comparison(Distances(forth), Distances(back), Samples._of(surface))

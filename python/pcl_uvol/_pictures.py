@@ -344,7 +344,7 @@ class Drawable:
         dataset = self._find_colors(look["color"], count)
         with listening(progress) as listener:
             report = _charts.write_page(os.fsencode(path), dataset, _parameters.to_json(look), count, listener)
-        _report.tell(report["warnings"])
+        _report.warn(report["warnings"])
         return report
 
     def _find_colors(self, color, threads):
@@ -371,7 +371,7 @@ def _draw_frame(painter, frame, progress):
         pixels, field, limits, report = painter.draw(frame, listener)
     parameters = _parameters.take(report)
     parameters.update(_parameters.from_json(report.pop("ray_parameters", "{}")))
-    _report.tell(report["warnings"])
+    _report.warn(report["warnings"])
     return Picture(pixels, field, limits, report, parameters)
 
 
@@ -424,5 +424,5 @@ def raytrace(scene, *, folder="", size=None, view=None, eye=None, at=None, up=No
             os.fsencode(scene), os.fsencode(folder), _parameters.to_json(look),
             _parameters.to_json({name: value for name, value in rays.items() if name in given}), given,
             _parameters.number(turn, "turn"), _parameters.count(threads, "threads"), listener)
-    _report.tell(report["warnings"])
+    _report.warn(report["warnings"])
     return Picture(pixels, "", (0.0, 1.0), report, parameters)

@@ -214,7 +214,7 @@ class Points(Bridges):
         from . import _io
         with listening(progress) as listener:
             losses = _io.write(os.fsencode(path), self._dataset, triangles, _parameters.flag(ascii, "ascii"), self._comments(), listener)
-        _report.tell(losses)
+        _report.warn(losses)
 
     def _comments(self):
         """Lines for files that have comments."""

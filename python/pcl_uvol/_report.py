@@ -10,7 +10,7 @@ from ._errors import ResultWarning
 _FOLDER = os.path.dirname(__file__)
 
 
-def tell(messages):
+def warn(messages):
     """Warn of each, at the line of the user's that called the module."""
     if not messages:
         return

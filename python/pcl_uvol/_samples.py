@@ -66,7 +66,7 @@ class Samples(Drawable, Points):
         elif fields is None and _is_table(points):
             points, fields = _columns_of(points, "xyz", None)
         self._begin(dataset or _arrays.make_dataset(points, fields))
-        _report.tell(self._dataset.notes)
+        _report.warn(self._dataset.notes)
 
     @classmethod
     def _of(cls, dataset, report=None, parameters=None, like=None):
@@ -168,7 +168,7 @@ class Samples(Drawable, Points):
         with listening(progress) as listener:
             dataset, report = self._dataset.with_density(parameters["length"], _parameters.count(threads, "threads"),
                                                          listener)
-        _report.tell(report["warnings"])
+        _report.warn(report["warnings"])
         return Samples._of(dataset, report, parameters, like=self)
 
     @_parameters.with_proposals
@@ -306,7 +306,7 @@ class Samples(Drawable, Points):
             samples = self if dataset is self._dataset else Samples._of(dataset, like=self)
             self._derived[made] = (samples, name, report["warnings"])
         samples, name, messages = self._derived[made]
-        _report.tell(messages)
+        _report.warn(messages)
         return samples, name
 
     def _with_numbers(self, expression, threads, progress, sides=(0.0, 0.0, 0.0)):
@@ -332,7 +332,7 @@ class Samples(Drawable, Points):
         """These samples with images beyond the faces of a periodic box."""
         with listening(progress) as listener:
             imaged = _core.ImagedSamples(self._dataset, sides, scale, _parameters.count(threads, "threads"), listener)
-        _report.tell(imaged.report["warnings"])
+        _report.warn(imaged.report["warnings"])
         return imaged
 
     def __getstate__(self):
@@ -345,7 +345,7 @@ class Samples(Drawable, Points):
         if self._cells is None and self._read_cells is not None:
             self._cells = self._read_cells(self._dataset)
         cells, messages = self._cells or (None, [])
-        _report.tell(messages)
+        _report.warn(messages)
         return cells
 
     def __repr__(self):

@@ -15,7 +15,7 @@ def _run(function, samples, parameters, threads, progress, *more):
     with listening(progress) as listener:
         results = function(samples._dataset, *more, _parameters.to_json(parameters),
                            _parameters.count(threads, "threads"), listener)
-    _report.tell(results[-1]["warnings"])
+    _report.warn(results[-1]["warnings"])
     return *results, _parameters.take(results[-1])
 
 
@@ -165,7 +165,7 @@ def splats(points, fields=None, *, delta=1e-4, delta_is_length=False, overlap=0.
     if gaussians:
         found, lost = _core.make_gaussians(found, _parameters.text(color, "color"))
         report["warnings"] += lost
-        _report.tell(lost)
+        _report.warn(lost)
     return Samples._of(found, report, dict(taken, gaussians=gaussians, color=color))
 
 
@@ -280,7 +280,7 @@ class Clusters:
             with listening(progress) as listener:
                 surface, report = _core.separate_cluster(dataset, self.labels, factors, stretch.rotation,
                                                          _parameters.to_json(how), count, listener)
-            _report.tell(report["warnings"])
+            _report.warn(report["warnings"])
             space = {"scale": factors, "rotation": stretch.rotation}
             return Samples._of(surface, report, {"kind": kind, **_parameters.take(report), **space})
         if kind not in ("distance", "hull", "hull-distance"):
@@ -295,7 +295,7 @@ class Clusters:
         with listening(progress) as listener:
             vertices, triangles, report = _vtk.enclose_cluster(dataset, members, _parameters.to_json(how), count,
                                                                listener)
-        _report.tell(report["warnings"])
+        _report.warn(report["warnings"])
         return Samples._of(vertices, report, _parameters.take(report)), triangles
 
     def _find_members(self, cluster):

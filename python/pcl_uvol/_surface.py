@@ -386,7 +386,7 @@ def _extract(extractor, samples, parameters, threads, progress):
         surface = Surface(dataset, report, taken, samples)
     else:
         surface = Mesh(dataset, triangles, report, taken, samples)
-    _report.tell(report["warnings"])
+    _report.warn(report["warnings"])
     return surface
 
 

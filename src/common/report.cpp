@@ -112,7 +112,7 @@ StepTimer::advance(std::uint64_t work)
     return;
   constexpr double smallest_step = 0.005;
   done_ += work;
-  const std::lock_guard<std::mutex> lock(telling_);
+  const std::lock_guard<std::mutex> lock(progress_mutex_);
   const std::uint64_t done = std::min<std::uint64_t>(done_, total_); // work done twice
   if (done == told_ ||
       (done < total_ &&

@@ -69,7 +69,7 @@ DerivedSource::readRows(const std::vector<std::uint64_t>& points,
 }
 
 void
-DerivedSource::tell(Report& report) const
+DerivedSource::addTo(Report& report) const
 {
   warnOfUndefined(field_, undefined_, size(), report);
 }

@@ -42,7 +42,7 @@ public:
 
   /** \brief Add the warnings for the points that were read from the front. */
   void
-  tell(Report& report) const;
+  addTo(Report& report) const;
 
   const Dataset&
   getHeader() const override

@@ -70,7 +70,7 @@ copyActiveArrays(vtkPointData& from, vtkPointData& to)
 } // namespace
 
 void
-PipelineProgress::tell(double done)
+PipelineProgress::advanceTo(double done)
 {
   if (std::this_thread::get_id() != thread_)
     return;
@@ -91,7 +91,7 @@ runGuarded(vtkAlgorithm& filter,
   output.Initialize();
   PipelineProgress progress(filter);
   Report report;
-  report.progress = [&](const std::string&, double done) { progress.tell(done); };
+  report.progress = [&](const std::string&, double done) { progress.advanceTo(done); };
   std::string error;
   try {
     work(progress, report);

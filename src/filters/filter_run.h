@@ -41,7 +41,7 @@ public:
 
   /** \throws Aborted if the filter was told to */
   void
-  tell(double done);
+  advanceTo(double done);
 
 private:
   vtkAlgorithm& filter_;

@@ -494,7 +494,7 @@ BlendedFits::evaluate(const Query* queries,
 }
 
 void
-BlendedFits::tell(Report& report) const
+BlendedFits::addTo(Report& report) const
 {
   report.count("reduced_fits", fits_.countReduced());
 }

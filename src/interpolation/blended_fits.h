@@ -39,7 +39,7 @@ public:
            const Estimates& estimates) const override;
 
   void
-  tell(Report& report) const override;
+  addTo(Report& report) const override;
 
 private:
   const SampledFields& sampled_;

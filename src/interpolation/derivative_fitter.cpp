@@ -32,7 +32,7 @@ constexpr std::size_t most_fitted = fitted_samples + 2;
 /** Least pivots of fits that need no other metric, and of fits that are worth
  * something, and how much stretching matters then: as for isopoints, see
  * smooth_roots.cpp. */
-constexpr double good_pivot = 0.02, worthless_pivot = 1e-3, little_stretching = 1.1;
+constexpr double good_pivot = 0.02, singular_pivot = 1e-3, little_stretching = 1.1;
 
 /** The standard error of a value over the largest difference of the values around: with
  * more, a cubic through 40 samples does not follow them. The smaller bound is for terms
@@ -102,11 +102,11 @@ DerivativeFitter::fit(std::uint32_t begin, std::uint32_t count)
 {
   BlockDerivatives found;
   found.derivatives.assign(count * sampled_.fields, unknownDerivatives());
-  doubts_.clear();
+  uncertain_fits_.clear();
   finder_.expect(&sampled_.samples->getPositions()[begin], count);
   for (std::size_t first = 0; first < count; first += polynomial_lanes)
     fitLanes(begin, first, std::min(polynomial_lanes, count - first), found);
-  for (const Doubt& doubt : doubts_)
+  for (const UncertainFit& doubt : uncertain_fits_)
     fitAnew(doubt, &found.derivatives[(doubt.sample - begin) * sampled_.fields], found);
   return found;
 }
@@ -141,9 +141,9 @@ DerivativeFitter::fitLanes(std::uint32_t begin,
         is_sane || followsValues(lane, std::numeric_limits<double>::infinity());
     const bool is_determined = pivot >= good_pivot;
     const bool is_trusted =
-        is_determined ? is_sane : is_close && pivot >= worthless_pivot;
+        is_determined ? is_sane : is_close && pivot >= singular_pivot;
     if (!is_exact && !is_trusted)
-      doubts_.push_back(
+      uncertain_fits_.push_back(
           {sampleOf(lane), pivot, is_close || (is_bounded && is_determined)});
     if (is_bounded)
       for (std::size_t f = 0; f < fields; ++f)
@@ -215,10 +215,10 @@ DerivativeFitter::followsValues(std::size_t lane, double most_error) const
 }
 
 DerivativeFitter::Spacings
-DerivativeFitter::findSpacings(const Doubt& doubt)
+DerivativeFitter::findSpacings(const UncertainFit& doubt)
 {
   const double least_ratio =
-      doubt.pivot < worthless_pivot ? little_stretching : LocalMetricFinder::even_ratio;
+      doubt.pivot < singular_pivot ? little_stretching : LocalMetricFinder::even_ratio;
   const bool has_group =
       group_metrics_.find(group_metrics_.findAnchor(doubt.sample), least_ratio);
   if (group_metrics_.hasFailed())
@@ -234,7 +234,7 @@ DerivativeFitter::findSpacings(const Doubt& doubt)
 }
 
 void
-DerivativeFitter::fitAnew(const Doubt& doubt,
+DerivativeFitter::fitAnew(const UncertainFit& doubt,
                           PointDerivatives* derivatives,
                           BlockDerivatives& found)
 {

@@ -38,7 +38,7 @@ public:
 
 private:
   /** A sample whose fit a stretched sampling may have spoilt. */
-  struct Doubt {
+  struct UncertainFit {
     std::uint32_t sample;
     double pivot; ///< of its fit
     /** Its cubic is close to the values, or well determined and bounded by them. */
@@ -71,11 +71,13 @@ private:
   followsValues(std::size_t lane, double most_error) const;
 
   Spacings
-  findSpacings(const Doubt& doubt);
+  findSpacings(const UncertainFit& doubt);
 
   /** \param derivatives of the sample's fields */
   void
-  fitAnew(const Doubt& doubt, PointDerivatives* derivatives, BlockDerivatives& found);
+  fitAnew(const UncertainFit& doubt,
+          PointDerivatives* derivatives,
+          BlockDerivatives& found);
 
   struct alignas(64) LaneValues {
     double value[polynomial_lanes];
@@ -90,7 +92,7 @@ private:
   std::vector<LaneValues> values_;        ///< [field][neighbour]
   std::vector<PolynomialFit> results_;
   std::vector<double> sq_dists_;
-  std::vector<Doubt> doubts_;
+  std::vector<UncertainFit> uncertain_fits_;
   int weighted_[polynomial_lanes] = {};
   double radius_[polynomial_lanes] = {};
   float length_ = 1.0f; ///< of the search before

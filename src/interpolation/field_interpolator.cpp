@@ -434,7 +434,7 @@ FieldInterpolator::interpolate(const std::vector<std::array<double, 3>>& queries
   StepTimer step(report, "interpolation", groups_.size() * queries.size());
   InterpolatedFields result = answer(queries, threads, step);
   for (const Group& group : groups_)
-    group.model->tell(report);
+    group.model->addTo(report);
   countSupport(result.support, report);
   return result;
 }
@@ -457,7 +457,7 @@ FieldInterpolator::interpolate(std::size_t queries,
     take(first, result);
   }
   for (const Group& group : groups_)
-    group.model->tell(report);
+    group.model->addTo(report);
 }
 
 std::optional<FittedVariogram>

@@ -64,7 +64,7 @@ public:
 
   /** \brief Add what the user should know of all answers so far. */
   virtual void
-  tell(Report&) const
+  addTo(Report&) const
   {
   }
 };

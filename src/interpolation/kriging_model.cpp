@@ -223,7 +223,7 @@ KrigingModel::evaluate(const Query* queries,
 }
 
 void
-KrigingModel::tell(Report& report) const
+KrigingModel::addTo(Report& report) const
 {
   for (const std::string& name : constant_)
     report.warn("no_variogram", {{"field", name}});

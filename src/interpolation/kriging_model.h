@@ -35,7 +35,7 @@ public:
            const Estimates& estimates) const override;
 
   void
-  tell(Report& report) const override;
+  addTo(Report& report) const override;
 
   /** \brief After the metric. */
   const FittedVariogram*

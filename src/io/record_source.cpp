@@ -206,7 +206,7 @@ readPoints(PointReader& reader,
     auto records = makeRecords(info.fields, count);
     readInParts(reader.getSource(), count, progress, records);
     if (end)
-      *end = reader.getSource().tellEnd();
+      *end = reader.getSource().getEnd();
     return makeDataset(std::move(records), info);
   }
   Dataset dataset = reader.getLayout().getHeader();
@@ -214,7 +214,7 @@ readPoints(PointReader& reader,
   resizePoints(dataset.cloud, count);
   readInParts(reader, count, progress, dataset.cloud);
   if (end)
-    *end = reader.getSource().tellEnd();
+    *end = reader.getSource().getEnd();
   return dataset;
 }
 

@@ -67,7 +67,7 @@ public:
 
   /** \brief What follows the last record in the file; all records have been read. */
   virtual FileCursor::Place
-  tellEnd() const = 0;
+  getEnd() const = 0;
 
   /** \param record 0 to the number of records
    * \throws IOError */
@@ -98,7 +98,7 @@ protected:
 class NumberedSource : public RecordSource {
 public:
   FileCursor::Place
-  tellEnd() const override
+  getEnd() const override
   {
     return {};
   }
@@ -121,7 +121,7 @@ public:
               bool swapped);
 
   FileCursor::Place
-  tellEnd() const override
+  getEnd() const override
   {
     return {offset_ + info_.count * step_, 0};
   }
@@ -144,7 +144,7 @@ private:
 class SequentialSource : public RecordSource {
 public:
   FileCursor::Place
-  tellEnd() const override
+  getEnd() const override
   {
     return cursor_->tell();
   }

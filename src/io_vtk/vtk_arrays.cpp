@@ -133,12 +133,12 @@ readTexts(const std::string& path,
 }
 
 void
-checkPromise(const std::string& path,
-             std::string_view array,
-             std::uint64_t components,
-             std::uint64_t tuples,
-             std::uint64_t size,
-             std::uint64_t left)
+checkFits(const std::string& path,
+          std::string_view array,
+          std::uint64_t components,
+          std::uint64_t tuples,
+          std::uint64_t size,
+          std::uint64_t left)
 {
   if (components < 1 || components > std::numeric_limits<std::int32_t>::max() ||
       (tuples > 0 && components > left / size / tuples))

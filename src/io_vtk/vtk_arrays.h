@@ -57,12 +57,12 @@ readTexts(const std::string& path,
  * \param size bytes that a number has at least
  * \throws IOError unless that many numbers fit into what is left */
 void
-checkPromise(const std::string& path,
-             std::string_view array,
-             std::uint64_t components,
-             std::uint64_t tuples,
-             std::uint64_t size,
-             std::uint64_t left);
+checkFits(const std::string& path,
+          std::string_view array,
+          std::uint64_t components,
+          std::uint64_t tuples,
+          std::uint64_t size,
+          std::uint64_t left);
 
 } // namespace io
 } // namespace pcl_uvol

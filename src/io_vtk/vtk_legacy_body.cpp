@@ -111,12 +111,12 @@ LegacyBody::readArray(std::string_view type_name,
           shortenText(type_name),
           "types of numbers"});
   const std::uint64_t size = is_binary_ ? datatypeSize(type->datatype) : 2;
-  checkPromise(path_,
-               name,
-               components,
-               tuples,
-               size,
-               (cursor_.left() + 1) * (bits && is_binary_ ? 8 : 1));
+  checkFits(path_,
+            name,
+            components,
+            tuples,
+            size,
+            (cursor_.left() + 1) * (bits && is_binary_ ? 8 : 1));
   vtkSmartPointer<vtkDataArray> array = makeArray(*type, name, components, tuples);
   const std::uint64_t numbers = components * tuples;
   std::uint8_t* const bytes = bytesOf(*array);

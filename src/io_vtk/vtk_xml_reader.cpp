@@ -116,14 +116,14 @@ ArrayReader::check(const ArrayTag& array, std::uint64_t tuples) const
 {
   const std::uint64_t bytes = endOf(array) - beginOf(array);
   const bool text = array.format == "ascii";
-  checkPromise(path_,
-               array.name,
-               array.components,
-               tuples,
-               text          ? 2
-               : compressor_ ? 1
-                             : datatypeSize(array.type->datatype),
-               text ? bytes + 1 : bytes * encoding_.most_expansion);
+  checkFits(path_,
+            array.name,
+            array.components,
+            tuples,
+            text          ? 2
+            : compressor_ ? 1
+                          : datatypeSize(array.type->datatype),
+            text ? bytes + 1 : bytes * encoding_.most_expansion);
 }
 
 void

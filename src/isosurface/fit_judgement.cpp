@@ -23,7 +23,7 @@ constexpr double error_factor = 3.5, bias_factor = 2.0;
 /** A slope whose standard error is a larger part of it may be as much less steep as so
  * many of these parts beyond: noise that is as large as a spacing puts isopoints where
  * it makes fits steep. It leaves at least that part of the slope. */
-constexpr double sure_slope = 0.05, slope_factor = 2.6, least_slope = 0.25;
+constexpr double certain_slope = 0.05, slope_factor = 2.6, least_slope = 0.25;
 
 /** Share of the radius of the support: farther from an edge no surface is expected. */
 constexpr double most_reach = 1.2;
@@ -205,7 +205,7 @@ judge(const FitResult& result, std::size_t lane, const Surroundings& surrounding
 double
 errorOfFit(const FitResult& result, std::size_t lane)
 {
-  const double doubt = std::max(0.0, result.slope_error[lane] - sure_slope);
+  const double doubt = std::max(0.0, result.slope_error[lane] - certain_slope);
   return errorOfRoot(result, lane) / std::max(1.0 - slope_factor * doubt, least_slope);
 }
 
@@ -307,7 +307,7 @@ keepInGap(const IsoEdge& edge, PointIso& point)
 }
 
 void
-doubtFit(const IsoEdge& edge, PointIso& point)
+raiseErrorToEdge(const IsoEdge& edge, PointIso& point)
 {
   point.error = std::max(point.error, errorOnEdge(edge, point));
 }

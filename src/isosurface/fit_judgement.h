@@ -126,7 +126,7 @@ keepInGap(const IsoEdge& edge, PointIso& point);
 
 /** \brief Let the error of an isopoint be that of its edge, if this is larger. */
 void
-doubtFit(const IsoEdge& edge, PointIso& point);
+raiseErrorToEdge(const IsoEdge& edge, PointIso& point);
 
 /** \brief Make an isopoint what its fit says; one that the fit does not serve stays
  * where it is.

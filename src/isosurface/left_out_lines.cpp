@@ -12,7 +12,7 @@ namespace pcl_uvol {
 namespace {
 
 /** Across lines samples are so many times farther apart than along them, at least. */
-constexpr double sure_lines = 2.0;
+constexpr double certain_lines = 2.0;
 
 /** In spacings: samples that lie no farther apart across lines are on the same one. */
 constexpr double same_line = 0.5;
@@ -40,7 +40,7 @@ findLines(const Eigen::Matrix3d& spacings)
 {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(spacings);
   const Eigen::Vector3d& squares = eigen.eigenvalues();
-  if (!(squares[1] >= sure_lines * sure_lines * squares[0]))
+  if (!(squares[1] >= certain_lines * certain_lines * squares[0]))
     return {};
   return {eigen.eigenvectors().col(0), std::sqrt(squares[0])};
 }

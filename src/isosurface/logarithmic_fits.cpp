@@ -17,7 +17,7 @@ constexpr double steep_factor = 2.0;
 constexpr double clearly_smaller = 0.8;
 
 /** Standard errors off the isovalue that tell the side. */
-constexpr double sure_of_side = 2.0;
+constexpr double certain_side = 2.0;
 
 /** Copy what a lane tells of the zero level. */
 void
@@ -46,7 +46,7 @@ isBetter(const FitResult& fit, const FitResult& of_values, std::size_t lane)
 }
 
 double
-sureness(const FitResult& result, std::size_t lane)
+signalToError(const FitResult& result, std::size_t lane)
 {
   return std::abs(result.value[lane]) / result.value_error[lane];
 }
@@ -84,11 +84,11 @@ LogarithmicFits::isMoreCertainOfSide(const FitResult& fit,
 {
   const bool has_fallen =
       fit.value[lane] / isovalue_ < 0.0 || of_values.value[lane] / isovalue_ < 0.0;
-  const double sure = sureness(fit, lane);
+  const double sure = signalToError(fit, lane);
   return has_fallen &&
          (fit.order[lane] == fit_failed ||
           surroundings.support != IsoSupport::Measured) &&
-         sure > std::max(sureness(of_values, lane), sure_of_side);
+         sure > std::max(signalToError(of_values, lane), certain_side);
 }
 
 void

@@ -30,11 +30,11 @@ constexpr std::size_t fitted_samples = 40;
 constexpr double good_pivot = 0.02;
 
 /** A fit of less is worth nothing, and a little stretching matters: curved lattices. */
-constexpr double worthless_pivot = 1e-3, little_stretching = 1.1;
+constexpr double singular_pivot = 1e-3, little_stretching = 1.1;
 
 /** Spacings that differ by less may be those of random samples: they are no reason to
  * doubt a good fit, or that a gap is one. */
-constexpr double sure_stretching = 2.0;
+constexpr double certain_stretching = 2.0;
 
 const KernelTable<FitKernel> fit_kernels{
     baseline::fitZeroLevel, avx2::fitZeroLevel, avx512::fitZeroLevel};
@@ -48,7 +48,7 @@ distance(const Position& a, const Position& b)
 }
 
 /** A fit that a stretched sampling may have spoilt. */
-struct DoubtfulFit {
+struct UncertainFit {
   std::size_t point;
   Position center; ///< the linear root, in the stretched space
   double pivot;
@@ -86,22 +86,22 @@ public:
          std::vector<Ball>* searched)
   {
     searched_ = searched;
-    doubtful_.clear();
+    uncertain_.clear();
     flat_.clear();
     for (std::size_t first = 0; first < count; first += fit_lanes)
       fitAsTheyAre(first, std::min(fit_lanes, count - first), edges, points, fits);
-    for (std::size_t first = 0; first < doubtful_.size(); first += fit_lanes)
-      fitInLocalMetrics(&doubtful_[first],
-                        std::min(fit_lanes, doubtful_.size() - first),
+    for (std::size_t first = 0; first < uncertain_.size(); first += fit_lanes)
+      fitInLocalMetrics(&uncertain_[first],
+                        std::min(fit_lanes, uncertain_.size() - first),
                         edges,
                         points,
                         fits);
-    for (const DoubtfulFit& doubtful : flat_)
-      planar_.smooth(doubtful.center,
-                     edges[doubtful.point],
-                     doubtful.given,
-                     points[doubtful.point],
-                     fits[doubtful.point]);
+    for (const UncertainFit& uncertain : flat_)
+      planar_.smooth(uncertain.center,
+                     edges[uncertain.point],
+                     uncertain.given,
+                     points[uncertain.point],
+                     fits[uncertain.point]);
   }
 
 private:
@@ -148,7 +148,7 @@ private:
                                  : static_cast<float>(surroundings[lane].radius);
         fits[i] = {RootOutcome::Far, radius, std::numeric_limits<float>::quiet_NaN()};
         keepInGap(edges[i], points[i]);
-        doubtful_.push_back({i, centers[lane], 0.0, true, false, false, points[i]});
+        uncertain_.push_back({i, centers[lane], 0.0, true, false, false, points[i]});
         continue;
       }
       const bool has_all = weighted[lane] < static_cast<int>(fitted_samples);
@@ -159,13 +159,13 @@ private:
                  static_cast<float>(result.value[lane])};
       const bool is_past =
           goesPastSamples(result, lane, fits[i].outcome, surroundings[lane], samples_);
-      const DoubtfulFit doubtful{
+      const UncertainFit uncertain{
           i, centers[lane], result.pivot[lane], false, is_past, has_all, points[i]};
       if (has_all)
-        flat_.push_back(doubtful);
+        flat_.push_back(uncertain);
       else if (is_past || !(result.pivot[lane] >= good_pivot) ||
                surroundings[lane].support != IsoSupport::Measured)
-        doubtful_.push_back(doubtful);
+        uncertain_.push_back(uncertain);
       setIsopoint(input_,
                   result,
                   lane,
@@ -198,13 +198,13 @@ private:
 
   /** How far samples that stretch one metric let a fit in it be trusted. */
   static double
-  leastRatio(const DoubtfulFit& doubtful)
+  leastRatio(const UncertainFit& uncertain)
   {
-    if (doubtful.is_in_gap)
-      return sure_stretching;
-    return doubtful.pivot < worthless_pivot ? little_stretching
-           : doubtful.pivot < good_pivot    ? LocalMetricFinder::even_ratio
-                                            : sure_stretching;
+    if (uncertain.is_in_gap)
+      return certain_stretching;
+    return uncertain.pivot < singular_pivot ? little_stretching
+           : uncertain.pivot < good_pivot   ? LocalMetricFinder::even_ratio
+                                            : certain_stretching;
   }
 
   /** What is known of a metric. */
@@ -219,28 +219,28 @@ private:
    * or if its edge goes past samples that need none; among stretched ones it is right
    */
   Spacings
-  findMetric(const DoubtfulFit& doubtful, const IsoEdge& edge, PointIso& point)
+  findMetric(const UncertainFit& uncertain, const IsoEdge& edge, PointIso& point)
   {
-    const double least_ratio = leastRatio(doubtful);
+    const double least_ratio = leastRatio(uncertain);
     const std::uint32_t anchor = group_metrics_.findAnchor(edge.first);
     const bool has_group = group_metrics_.find(anchor, least_ratio);
-    noteSearches(doubtful.point, group_metrics_.getSearched());
-    if (group_metrics_.hasFailed() || (doubtful.is_in_gap && !has_group))
+    noteSearches(uncertain.point, group_metrics_.getSearched());
+    if (group_metrics_.hasFailed() || (uncertain.is_in_gap && !has_group))
       return Spacings::Unknown;
-    if (has_group && liesInGap(group_metrics_, doubtful.center)) {
-      noteSearches(doubtful.point, {nearest_.getSearched()});
-      if (group_metrics_.getRatio() >= sure_stretching)
+    if (has_group && liesInGap(group_metrics_, uncertain.center)) {
+      noteSearches(uncertain.point, {nearest_.getSearched()});
+      if (group_metrics_.getRatio() >= certain_stretching)
         point.support = static_cast<std::uint8_t>(IsoSupport::Bridged);
       return Spacings::Unknown;
     }
     const bool is_found = has_group
                               ? metrics_.refine(edge.first, group_metrics_, least_ratio)
                               : metrics_.find(edge.first, least_ratio);
-    noteSearches(doubtful.point, metrics_.getSearched());
+    noteSearches(uncertain.point, metrics_.getSearched());
     const bool is_even = !is_found && metrics_.isEven(least_ratio);
-    if (doubtful.is_past && is_even)
+    if (uncertain.is_past && is_even)
       point.support = static_cast<std::uint8_t>(IsoSupport::Bridged);
-    if (is_found && metrics_.reaches(doubtful.center))
+    if (is_found && metrics_.reaches(uncertain.center))
       return Spacings::Stretched;
     return is_even ? Spacings::Even : Spacings::Unknown;
   }
@@ -263,7 +263,7 @@ private:
 
   /** Fit again in the metrics of the samples around, where these are stretched. */
   void
-  fitInLocalMetrics(const DoubtfulFit* doubtful,
+  fitInLocalMetrics(const UncertainFit* doubtful,
                     std::size_t count,
                     const IsoEdge* edges,
                     PointIso* points,
@@ -279,15 +279,15 @@ private:
       clear(lane, 0);
       if (lane >= count)
         continue;
-      const std::size_t i = doubtful[lane].point;
-      const Position& center = doubtful[lane].center;
-      const Spacings spacings = findMetric(doubtful[lane], edges[i], points[i]);
+      const std::size_t i = uncertain[lane].point;
+      const Position& center = uncertain[lane].center;
+      const Spacings spacings = findMetric(uncertain[lane], edges[i], points[i]);
       const bool may_be_on_lines =
-          spacings == Spacings::Unknown ||
-          (spacings == Spacings::Stretched && metrics_.getRatio() >= sure_stretching);
+          spacings == Spacings::Unknown || (spacings == Spacings::Stretched &&
+                                            metrics_.getRatio() >= certain_stretching);
       // Unless a fit in the metric takes its place, it is no better than its edge.
-      if (may_be_on_lines && !(doubtful[lane].pivot >= worthless_pivot))
-        doubtFit(edges[i], points[i]);
+      if (may_be_on_lines && !(uncertain[lane].pivot >= singular_pivot))
+        raiseErrorToEdge(edges[i], points[i]);
       if (spacings == Spacings::Stretched) {
         metrics[lane] = metrics_.getMetric();
         ratios[lane] = metrics_.getRatio();
@@ -297,8 +297,8 @@ private:
         noteSearches(i, {nearest_.getSearched()});
         has_any = true;
       }
-      else if (!doubtful[lane].is_in_gap && group_metrics_.hasFailed())
-        flat_.push_back(doubtful[lane]);
+      else if (!uncertain[lane].is_in_gap && group_metrics_.hasFailed())
+        flat_.push_back(uncertain[lane]);
     }
     FitResult result;
     if (has_any)
@@ -306,9 +306,9 @@ private:
     for (std::size_t lane = 0; lane < count; ++lane) {
       if (weighted[lane] == 0)
         continue;
-      const std::size_t i = doubtful[lane].point;
-      const double pivot = doubtful[lane].pivot;
-      if (ratios[lane] < sure_stretching)
+      const std::size_t i = uncertain[lane].point;
+      const double pivot = uncertain[lane].pivot;
+      if (ratios[lane] < certain_stretching)
         surroundings[lane].support = static_cast<IsoSupport>(points[i].support);
       points[i].support = static_cast<std::uint8_t>(surroundings[lane].support);
       const RootOutcome outcome = judge(result, lane, surroundings[lane]);
@@ -316,7 +316,7 @@ private:
           surroundings[lane].support == IsoSupport::Bridged ||
           (fits[i].outcome <= RootOutcome::Quadratic && !(result.pivot[lane] > pivot)))
         continue;
-      addDoubtOfLines(lines[lane], lane, surroundings[lane].radius, result);
+      addErrorOfLines(lines[lane], lane, surroundings[lane].radius, result);
       leaveMetric(metrics[lane], lane, result);
       const auto& positions = input_.samples.getPositions();
       if (isFarFromJump(
@@ -333,7 +333,7 @@ private:
 
   /** Let the error of a fit to samples on lines tell of what lies between these. */
   void
-  addDoubtOfLines(SampleLines lines, std::size_t lane, double radius, FitResult& result)
+  addErrorOfLines(SampleLines lines, std::size_t lane, double radius, FitResult& result)
   {
     if (lines.spacing == 0.0)
       return;
@@ -474,8 +474,8 @@ private:
   MetricFinder nearest_;
   LocalMetricFinder metrics_, group_metrics_;
   PlanarRoots planar_;
-  std::vector<DoubtfulFit> doubtful_;
-  std::vector<DoubtfulFit> flat_; ///< maybe: no samples are seen beside a plane
+  std::vector<UncertainFit> uncertain_;
+  std::vector<UncertainFit> flat_; ///< maybe: no samples are seen beside a plane
   std::vector<FitSample> samples_;
   FitKernel fit_;
   LogarithmicFits logarithmic_;

@@ -81,7 +81,7 @@ private:
     const std::size_t band = values_.getBand().size();
     StepTimer step(report_, "triangles", 3 * band);
     findPairs(step);
-    const auto tellPairs = [&](std::size_t begin, std::size_t end) {
+    const auto passPairs = [&](std::size_t begin, std::size_t end) {
       step.advance(band * end / pairs_.size() - band * begin / pairs_.size());
     };
     WorkingMesh mesh;
@@ -97,7 +97,7 @@ private:
         pairs_.size(), band_vertex_block, input_.threads, [&](auto begin, auto end) {
           for (std::size_t i = begin; i < end; ++i)
             mesh.vertices[i] = makeVertex(pairs_[i]);
-          tellPairs(begin, end);
+          passPairs(begin, end);
         });
     const auto placeOf = [&](const CellPair& pair) -> const Eigen::Vector3d& {
       const auto at = std::lower_bound(pairs_.begin(), pairs_.end(), pair);
@@ -110,7 +110,7 @@ private:
         [&](const CellPair& a, const CellPair& b) {
           return (placeOf(a) - placeOf(b)).squaredNorm();
         },
-        tellPairs,
+        passPairs,
         input_.threads);
     return mesh;
   }

@@ -21,8 +21,8 @@ using Whole = boost::multiprecision::cpp_int;
 constexpr double rounding = std::numeric_limits<double>::epsilon() / 2.0;
 
 /** Share of the sum of the magnitudes of all products (Shewchuk 1997). @{ */
-constexpr double volume_doubt = (7.0 + 56.0 * rounding) * rounding,
-                 area_doubt = (3.0 + 16.0 * rounding) * rounding;
+constexpr double volume_rounding = (7.0 + 56.0 * rounding) * rounding,
+                 area_rounding = (3.0 + 16.0 * rounding) * rounding;
 /** @} */
 
 /** Numbers as whole multiples of a power of two that they have in common. */
@@ -93,7 +93,7 @@ signOfVolume(const Eigen::Vector3d& a,
   const Eigen::Vector3d sums(std::abs(v[1] * w[2]) + std::abs(v[2] * w[1]),
                              std::abs(v[2] * w[0]) + std::abs(v[0] * w[2]),
                              std::abs(v[0] * w[1]) + std::abs(v[1] * w[0]));
-  const double doubt = volume_doubt * u.cwiseAbs().dot(sums);
+  const double doubt = volume_rounding * u.cwiseAbs().dot(sums);
   if (volume > doubt)
     return -1;
   if (volume < -doubt)
@@ -110,7 +110,7 @@ signOfArea(const Eigen::Vector3d& a,
   const int x = (dropped_axis + 1) % 3, y = (dropped_axis + 2) % 3;
   const double left = (a[x] - c[x]) * (b[y] - c[y]),
                right = (a[y] - c[y]) * (b[x] - c[x]);
-  const double doubt = area_doubt * (std::abs(left) + std::abs(right));
+  const double doubt = area_rounding * (std::abs(left) + std::abs(right));
   if (left - right > doubt)
     return 1;
   if (left - right < -doubt)

@@ -35,16 +35,16 @@ warnOfOpen(const SurfaceFigures& figures, Report& report)
 }
 
 void
-warnOfVague(const SurfaceFigures& figures, Report& report)
+warnOfUncertainMeasures(const SurfaceFigures& figures, Report& report)
 {
-  const auto vague = std::count_if(
+  const auto uncertain = std::count_if(
       figures.isovalues.begin(), figures.isovalues.end(), [](const PieceMeasures& all) {
         return all.volume.error > large_error * std::abs(all.volume.value) ||
                all.area.error > large_error * all.area.value;
       });
-  if (vague > 0)
+  if (uncertain > 0)
     report.warn("uncertain_measures",
-                {{"uncertain", vague}, {"surfaces", figures.isovalues.size()}});
+                {{"uncertain", uncertain}, {"surfaces", figures.isovalues.size()}});
 }
 
 /** Whether a closed surface has no volume and encloses no sample. */
@@ -144,7 +144,7 @@ warnOfMeasures(const SurfaceFigures& figures, Report& report)
   if (flat > 0)
     report.warn("flat_surfaces",
                 {{"flat", flat}, {"surfaces", figures.isovalues.size()}});
-  warnOfVague(figures, report);
+  warnOfUncertainMeasures(figures, report);
   warnOfMissedSamples(figures, report);
   if (std::any_of(figures.isovalues.begin(),
                   figures.isovalues.end(),

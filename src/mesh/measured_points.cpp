@@ -137,7 +137,7 @@ public:
   integrate()
   {
     surface.integrals.resize(surface.list.pieces.size());
-    doubtful_.resize(surface.list.pieces.size());
+    uncertain_.resize(surface.list.pieces.size());
     for (std::uint32_t i = 0; i < points_.corners.size(); ++i)
       for (const FanTriangle& others : fans_.getFan(i)) {
         const bool is_agreed = fans_.isAgreedOn(i, others);
@@ -150,10 +150,10 @@ public:
     for (std::uint32_t i = 0; i < points_.corners.size(); ++i)
       if ((fans_.isOnRim(i) || points_.isInGap(i)) && !fans_.getFan(i).empty())
         surface.integrals[pieceOf(i)].area_error += surface.shares[sourceOf(i)];
-    for (std::size_t piece = 0; piece < doubtful_.size(); ++piece) {
+    for (std::size_t piece = 0; piece < uncertain_.size(); ++piece) {
       SurfaceIntegrals& all = surface.integrals[piece];
-      all.area_error += disagreement * std::sqrt(doubtful_[piece].area_error);
-      all.volume_error += disagreement * std::sqrt(doubtful_[piece].volume_error);
+      all.area_error += disagreement * std::sqrt(uncertain_[piece].area_error);
+      all.volume_error += disagreement * std::sqrt(uncertain_[piece].volume_error);
     }
   }
 
@@ -233,13 +233,14 @@ private:
     const double part = voronoiPart(a, b, c);
     surface.integrals[piece].add(whole, part);
     surface.shares[sources[0]] += part * whole.area;
-    doubtful_[piece].area_error += part * part * whole.area * whole.area;
-    doubtful_[piece].volume_error += part * part * whole.volume * whole.volume;
+    uncertain_[piece].area_error += part * part * whole.area * whole.area;
+    uncertain_[piece].volume_error += part * part * whole.volume * whole.volume;
   }
 
   const SortedPoints& points_;
   const PointFans& fans_;
-  std::vector<SurfaceIntegrals> doubtful_; // by piece: squares of what is not agreed on
+  std::vector<SurfaceIntegrals>
+      uncertain_; // by piece: squares of what is not agreed on
 };
 
 } // namespace

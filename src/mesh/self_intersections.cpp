@@ -179,10 +179,10 @@ entersWithEdge(const std::vector<Place>& places,
 /** The same of triangles with areas; each pair of them is told once: by the lower one
  * at a shared edge and where the edges of both enter, else by the one whose do. */
 bool
-tellsOfIntersection(const std::vector<Place>& places,
-                    const std::vector<Triangle>& triangles,
-                    std::uint32_t number,
-                    std::uint32_t other)
+showsIntersection(const std::vector<Place>& places,
+                  const std::vector<Triangle>& triangles,
+                  std::uint32_t number,
+                  std::uint32_t other)
 {
   const Triangle &a = triangles[number], &b = triangles[other];
   const SharedVertices shared(a, b);
@@ -201,8 +201,8 @@ doIntersect(const std::vector<Eigen::Vector3d>& places,
 {
   const std::vector<Triangle> both{a, b};
   return hasArea(cornersOf(places, a)) && hasArea(cornersOf(places, b)) &&
-         (tellsOfIntersection(places, both, 0, 1) ||
-          tellsOfIntersection(places, both, 1, 0));
+         (showsIntersection(places, both, 0, 1) ||
+          showsIntersection(places, both, 1, 0));
 }
 
 std::vector<std::pair<std::uint32_t, std::uint32_t>>
@@ -243,7 +243,7 @@ findSelfIntersections(const std::vector<Eigen::Vector3d>& places,
           const std::size_t before = found.size();
           for (const std::uint32_t other : others)
             if (areOfOne(solid[i], solid[other]) &&
-                tellsOfIntersection(places, solid, i, other))
+                showsIntersection(places, solid, i, other))
               found.push_back(std::minmax(number_of[i], number_of[other]));
           if ((total += found.size() - before) > most_pairs)
             throw InvalidArgument("too_many_intersections", {{"most", most_pairs}});

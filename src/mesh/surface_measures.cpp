@@ -297,15 +297,15 @@ private:
     uncertain_.pieces = figures.pieces.size();
     uncertain_.are_left_out = drop;
     is_left_out_.assign(figures.pieces.size(), false);
-    std::vector<bool> is_any_sure(figures.pieces.size() + 1); // by isovalue
+    std::vector<bool> is_any_certain(figures.pieces.size() + 1); // by isovalue
     for (std::size_t i = 0; i < figures.pieces.size(); ++i)
       if (!detail::isUncertain(figures.pieces[i]))
-        is_any_sure[rank[i]] = true;
+        is_any_certain[rank[i]] = true;
     for (std::size_t i = 0; i < figures.pieces.size(); ++i) {
       const PieceMeasures& piece = figures.pieces[i];
       if (!detail::isUncertain(piece))
         continue;
-      if (!is_any_sure[rank[i]]) {
+      if (!is_any_certain[rank[i]]) {
         ++uncertain_.kept;
         continue;
       }

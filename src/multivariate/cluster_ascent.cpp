@@ -25,7 +25,7 @@ constexpr double least_gain = 1e-7;
 constexpr double first_move = 0.1, shortest_move = 1e-9, longest_move = 0.7;
 /** A step that does not keep this part of what the gradient promises (Armijo 1966) is
  * made shorter by this factor. */
-constexpr double kept_promise = 1e-4, shortening = 0.25;
+constexpr double sufficient_increase = 1e-4, shortening = 0.25;
 
 /** Ratios that are added: the logarithm of 0 would be infinite. */
 constexpr double ratio_floor = 1e-15;
@@ -109,8 +109,8 @@ ClusterSeparation::ascend(const MatrixXd& start, unsigned steps) const
       while (!is_gain && length * slope >= shortest_move) {
         next = retracted(basis + length * here.gradient);
         there = softMinimum(next, sharpness);
-        is_gain =
-            there.logarithm >= here.logarithm + kept_promise * length * slope * slope;
+        is_gain = there.logarithm >=
+                  here.logarithm + sufficient_increase * length * slope * slope;
         length *= shortening;
       }
       if (!is_gain)

@@ -187,10 +187,10 @@ mayBeClasses(const Column& column,
 
 /** Half a sentence; empty where the attribute makes no clusters by rounding. */
 std::string
-tellSteps(const Column& column,
-          const std::vector<std::int32_t>& labels,
-          std::size_t clusters,
-          unsigned threads)
+describeSteps(const Column& column,
+              const std::vector<std::int32_t>& labels,
+              std::size_t clusters,
+              unsigned threads)
 {
   const std::vector<Single> singles = findSingles(column, labels, clusters);
   if (2 * singles.size() < clusters || singles.front().value == singles.back().value)
@@ -222,8 +222,8 @@ warnOfRounding(const AttributeTable& table,
   const std::int32_t last = *std::max_element(labels.begin(), labels.end());
   std::string told;
   for (std::size_t column = 0; column < table.columns() && last > 0; ++column) {
-    const std::string text =
-        tellSteps({table, column}, labels, static_cast<std::size_t>(last) + 1, threads);
+    const std::string text = describeSteps(
+        {table, column}, labels, static_cast<std::size_t>(last) + 1, threads);
     if (!text.empty())
       told += (told.empty() ? "" : "; ") + text;
   }

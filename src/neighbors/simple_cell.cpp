@@ -21,10 +21,10 @@ const KernelTable<const CellKernels*> cell_kernel_table{
 
 /** Share of the size of a cell: vertices that close to a plane may lie on either side
  * of it. Rounding is some 1e-15; of random samples one cell in 10^8 comes that near. */
-constexpr double unsure_height = 1e-11;
+constexpr double rounding_height = 1e-11;
 
 /** Share of the product of three lengths: the volume that three normals span. Where it
- * is less, rounding moves the vertex by more than unsure_height. */
+ * is less, rounding moves the vertex by more than rounding_height. */
 constexpr double least_volume = 1e-4;
 
 /** Less than all squared lengths: of vertices that are final. */
@@ -117,7 +117,7 @@ SimpleCell::cut(const Vector3d& offset,
                 double sq_length,
                 std::uint32_t sample)
 {
-  const double margin = unsure_height * std::sqrt(sq_length * sq_reach_);
+  const double margin = rounding_height * std::sqrt(sq_length * sq_reach_);
   for (auto* const row : {&x_, &y_, &z_})
     std::fill_n(
         row->begin() + static_cast<std::ptrdiff_t>(vertices_), cell_padding, 0.0);
@@ -149,7 +149,7 @@ SimpleCell::keepTies(double length, double most)
   bool is_part = false;
   for (std::size_t v = 0; v < vertices_; ++v) {
     if (heights_[v] > 0.0 && heights_[v] <= most &&
-        heights_[v] <= unsure_height * length * std::sqrt(sq_lengths_[v]))
+        heights_[v] <= rounding_height * length * std::sqrt(sq_lengths_[v]))
       heights_[v] = 0.0;
     is_part = is_part || heights_[v] > 0.0;
   }
@@ -395,7 +395,7 @@ SimpleCell::findOpenVertex(double sq_limit, std::size_t& found)
     if (found == vertices_)
       return false;
     if (ties_ == Ties::Refuse || (getVertex(found) - final_place_).squaredNorm() >
-                                     unsure_height * unsure_height * sq_most)
+                                     rounding_height * rounding_height * sq_most)
       return true;
     open_[found] = final_length;
   }

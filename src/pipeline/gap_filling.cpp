@@ -125,7 +125,7 @@ areGaps(std::size_t in_gaps, std::size_t isopoints)
 /** Why gaps that are there were not filled.
  * \param kriged places where kriging gave a value */
 std::string
-tellWhyEmpty(const GapFilling& gaps, std::size_t kriged)
+describeWhyEmpty(const GapFilling& gaps, std::size_t kriged)
 {
   if (gaps.range < 0.5 * gaps.width)
     return "the variogram range is " + describeNumbers({gaps.range})[0] +
@@ -247,10 +247,10 @@ FilledGaps::compareFits(const std::vector<std::uint8_t>& is_in_gap,
                                        progress);
   reliable_fits_ = std::make_unique<ReliableFits>(
       crossings, are_supported, slopes, parameters.scale, summary_.spacing, threads);
-  const auto is_sure = reliable_fits_->find(places, threads);
+  const auto is_reliable = reliable_fits_->find(places, threads);
   std::vector<float> uncertain;
   for (std::size_t i = 0; i < errors.size(); ++i)
-    if (is_sure[i] == 0 && are_supported[i] == 0)
+    if (is_reliable[i] == 0 && are_supported[i] == 0)
       uncertain.push_back(errors[i]);
   if (!uncertain.empty())
     measured_error_ = computeMedian(uncertain);
@@ -263,12 +263,12 @@ FilledGaps::predictBetween(const pcl::PointCloud<PointIso>& roots,
                            unsigned threads,
                            Report& report)
 {
-  const auto is_sure = reliable_fits_->find(listPlaces(roots), threads);
+  const auto is_reliable = reliable_fits_->find(listPlaces(roots), threads);
   pcl::PointCloud<PointIso> seeds;
   std::size_t in_gaps = 0, uncertain = 0;
   for (std::size_t i = 0; i < roots.size(); ++i) {
     in_gaps += is_in_gap[i];
-    if (is_sure[i] != 0)
+    if (is_reliable[i] != 0)
       continue;
     uncertain += is_in_gap[i];
     seeds.push_back(roots[i]);
@@ -440,7 +440,7 @@ FilledGaps::predict(const pcl::PointCloud<PointIso>& roots,
           near.push_back(i);
           near_places.push_back(places[i]);
         }
-      const auto is_sure = reliable_fits_->find(near_places, threads);
+      const auto is_reliable = reliable_fits_->find(near_places, threads);
       const InterpolatedFields field = field_->interpolate(near_places, threads, own);
       const auto support = nearest_->interpolate(near_places, threads, own).support;
       for (std::size_t j = 0; j < near.size(); ++j) {
@@ -450,7 +450,7 @@ FilledGaps::predict(const pcl::PointCloud<PointIso>& roots,
         const bool is_between =
             hull_->contains(measured_->getUnit().apply(toFloat(places[i])));
         values[i] = {field.values[j],
-                     is_gap && is_between && is_sure[j] == 0 && distances[i] > 0.0};
+                     is_gap && is_between && is_reliable[j] == 0 && distances[i] > 0.0};
         kriged += std::isfinite(field.values[j]);
       }
       return values;
@@ -474,7 +474,8 @@ FilledGaps::predict(const pcl::PointCloud<PointIso>& roots,
                 nodes.size(),
                 gap_node_bytes * static_cast<double>(nodes.size()));
   summary_.predicted = nodes.size();
-  summary_.unfilled = nodes.empty() ? tellWhyEmpty(summary_, kriged) : std::string();
+  summary_.unfilled =
+      nodes.empty() ? describeWhyEmpty(summary_, kriged) : std::string();
   if (nodes.empty())
     return;
   report.count("predicted_samples", nodes.size());

@@ -72,10 +72,10 @@ warnOfWorse(const pcl::PointCloud<PointIso>& isopoints, float measured, Report& 
 /** Says so where the samples explain less than half of the variance at most isopoints
  * between predicted ones, or where none of these is left. */
 void
-warnOfDoubt(const pcl::PointCloud<PointIso>& isopoints,
-            const std::vector<float>& confidence,
-            const FoundInGaps& found,
-            Report& report)
+warnOfUncertainGaps(const pcl::PointCloud<PointIso>& isopoints,
+                    const std::vector<float>& confidence,
+                    const FoundInGaps& found,
+                    Report& report)
 {
   std::vector<float> of_predicted;
   for (std::size_t i = 0; i < isopoints.size(); ++i)
@@ -167,7 +167,7 @@ FilledGaps::judge(const IsosurfacePipelineParameters& parameters,
   own.progress = report.progress;
   const auto slopes = findKrigedSlopes(
       *field_, roots, slope_step * summary_.spacing, scale, threads, report.progress);
-  const auto is_sure = reliable_fits_->find(roots, threads);
+  const auto is_reliable = reliable_fits_->find(roots, threads);
   const auto support = nearest_->interpolate(roots, threads, own).support;
   const auto thin = findThin(roots, threads, nullptr);
   const double variance = summary_.nugget + summary_.psill;
@@ -181,7 +181,7 @@ FilledGaps::judge(const IsosurfacePipelineParameters& parameters,
     const bool is_predicted = edge.first >= measured || edge.second >= measured;
     const Eigen::Map<const Eigen::Array3f> a(cloud.xyz(edge.first)),
         b(cloud.xyz(edge.second));
-    if (!is_predicted && is_sure[i] != 0)
+    if (!is_predicted && is_reliable[i] != 0)
       continue;
     const bool is_in_gap =
         is_predicted || ((b - a).cast<double>() * scale).matrix().norm() >
@@ -233,7 +233,7 @@ FilledGaps::judge(const IsosurfacePipelineParameters& parameters,
   choice.filter(isopoints, keep);
   report.count("off_prediction", filterIsopoints(isopoints, edges, keep));
   warnOfWorse(isopoints, measured_error_, report);
-  warnOfDoubt(isopoints, choice.confidence, found, report);
+  warnOfUncertainGaps(isopoints, choice.confidence, found, report);
 }
 
 } // namespace pcl_uvol::detail

@@ -57,7 +57,7 @@ public:
   /** \brief Tell the side of the nearest isopoint in the stretched space. A place is
    * covered where that one lies within a distance. */
   void
-  tellSide(NearestFinder& finder,
+  findSide(NearestFinder& finder,
            const Position& place,
            double farthest,
            HeldOutSample& sample) const
@@ -223,7 +223,7 @@ askFor(const Question& question,
             : question.interpolated[i] >= question.isovalue_of_field;
     answer.is_side_above = answer.is_nearest_above;
     if (isopoints)
-      question.sides.tellSide(*isopoints, place, covered_spacings * spacing, answer);
+      question.sides.findSide(*isopoints, place, covered_spacings * spacing, answer);
   }
 }
 

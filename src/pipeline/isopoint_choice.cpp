@@ -145,7 +145,7 @@ private:
 
 /** Whether an isopoint may be a guess, by itself and its edge alone. */
 bool
-isDoubtful(const StretchedEdges& edges, std::size_t i, const PointIso& point)
+isUncertain(const StretchedEdges& edges, std::size_t i, const PointIso& point)
 {
   return !isSupport(point, IsoSupport::Measured) ||
          edges.carryBack(edges.findOutside(i)).dot(point.getNormalVector3fMap()) <
@@ -168,7 +168,7 @@ judgeSurface(const Surface& surface,
     IsopointSearch search = surface.makeSearch();
     for (std::size_t i = first + begin; i < first + end; ++i) {
       const PointIso& point = isopoints[i];
-      if (!isDoubtful(edges, i, point))
+      if (!isUncertain(edges, i, point))
         continue;
       const std::vector<std::uint32_t>& around = search.find(point);
       bisectors[i - first] = edges.carryBack(surface.bisect(i, around));
@@ -249,16 +249,16 @@ orientIsopoints(const IsosurfacePipelineParameters& parameters,
 
 /** Put isopoints of one isovalue back to their edges that rest on these alone. */
 void
-returnDoubtful(const Surface& surface,
-               const StretchedEdges& stretched,
-               const IsoEdges& edges,
-               const IsosurfacePipelineParameters& parameters,
-               std::size_t first,
-               std::size_t last,
-               unsigned threads,
-               StepTimer& step,
-               pcl::PointCloud<PointIso>& isopoints,
-               IsopointChoice& choice)
+returnUncertain(const Surface& surface,
+                const StretchedEdges& stretched,
+                const IsoEdges& edges,
+                const IsosurfacePipelineParameters& parameters,
+                std::size_t first,
+                std::size_t last,
+                unsigned threads,
+                StepTimer& step,
+                pcl::PointCloud<PointIso>& isopoints,
+                IsopointChoice& choice)
 {
   std::vector<std::uint8_t> returns(last - first, 0);
   std::vector<Eigen::Vector3f> bisectors(last - first);
@@ -319,16 +319,16 @@ chooseEach(const StretchedEdges& stretched,
            isopoints[last].isovalue == isopoints[first].isovalue)
       ++last;
     const Surface surface(isopoints, first, last, stretched, parameters, threads);
-    returnDoubtful(surface,
-                   stretched,
-                   edges,
-                   parameters,
-                   first,
-                   last,
-                   threads,
-                   step,
-                   isopoints,
-                   choice);
+    returnUncertain(surface,
+                    stretched,
+                    edges,
+                    parameters,
+                    first,
+                    last,
+                    threads,
+                    step,
+                    isopoints,
+                    choice);
     lowerEdgeErrors(surface.getPlaces(), stretched, first, last, threads, isopoints);
   }
 }

@@ -27,7 +27,7 @@ SmoothedSamples
 runLevelSet(const std::shared_ptr<const Dataset>& samples,
             const pcl::IndicesPtr& use,
             const LevelSetRequest& request,
-            const SurfaceCallback& tell_surface,
+            const SurfaceCallback& show_surface,
             unsigned threads,
             const ProgressCallback& progress)
 {
@@ -66,7 +66,7 @@ runLevelSet(const std::shared_ptr<const Dataset>& samples,
   evolution.setSnapshotCallback(
       request.snapshots,
       [&](const LevelSetSummary& so_far, const std::vector<float>& phi) {
-        tell_surface(so_far.steps.size(),
+        show_surface(so_far.steps.size(),
                      extractSnapshot(*input, parameters, sides, phi, threads));
       });
   result.samples = withoutCloud(*input);

@@ -60,7 +60,7 @@ checkRequest(const LevelSetRequest& request);
 /** \brief Find the field and the scale, give samples in a box images, evolve the level
  * set, and warn where its surface lies between lines of samples.
  * \param use points to take; null: all. With a box that repeats it is null.
- * \param tell_surface called after every request.snapshots steps
+ * \param show_surface called after every request.snapshots steps
  * \throws InvalidArgument as checkRequest(), for fields of names, and as
  * LevelSetEvolution
  * \throws Diverged as LevelSetEvolution */
@@ -68,7 +68,7 @@ PCL_UVOL_EXPORTS SmoothedSamples
 runLevelSet(const std::shared_ptr<const Dataset>& samples,
             const pcl::IndicesPtr& use,
             const LevelSetRequest& request,
-            const SurfaceCallback& tell_surface,
+            const SurfaceCallback& show_surface,
             unsigned threads,
             const ProgressCallback& progress);
 

@@ -46,7 +46,7 @@ public:
 
   /** \brief Take what the frame took that was chosen for. */
   void
-  tell(double milliseconds)
+  addTime(double milliseconds)
   {
     last_ = milliseconds;
     late_ = last_ > goal_ ? late_ + 1 : 0;

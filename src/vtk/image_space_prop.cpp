@@ -169,9 +169,9 @@ ImageSpaceProp::draw(vtkRenderer& renderer)
       else
         backend.renderToFramebuffer(frame, shown.target, report);
     });
-  coarseness_->tell(std::chrono::duration<double, std::milli>(
-                        std::chrono::steady_clock::now() - start)
-                        .count());
+  coarseness_->addTime(std::chrono::duration<double, std::milli>(
+                           std::chrono::steady_clock::now() - start)
+                           .count());
 }
 
 void

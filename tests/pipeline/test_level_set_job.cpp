@@ -30,9 +30,9 @@ makeRequest()
 SmoothedSamples
 run(const std::shared_ptr<const Dataset>& samples,
     const LevelSetRequest& request,
-    const SurfaceCallback& tell_surface = {})
+    const SurfaceCallback& show_surface = {})
 {
-  return runLevelSet(samples, nullptr, request, tell_surface, 2, {});
+  return runLevelSet(samples, nullptr, request, show_surface, 2, {});
 }
 
 TEST(LevelSetJob, GivesThePhiOfTheEvolution)

@@ -56,9 +56,9 @@ TEST(ReliableFits, AreFoundWhereMostAroundContradictKriging)
   auto crossings = makeCrossings(count);
   std::vector<detail::KrigedSlope> kriged;
   for (std::size_t i = 0; i < count; ++i) { // every fifth one is outvoted
-    const bool is_sure = (crossings[i].x < 0.0f) != (i % 5 == 0);
+    const bool is_reliable = (crossings[i].x < 0.0f) != (i % 5 == 0);
     const bool contradicts = (crossings[i].y < 0.0f) != (i % 5 == 1);
-    kriged.push_back(makeSlope(contradicts ? -0.04 : 0.01, is_sure ? 1.1 : 0.9));
+    kriged.push_back(makeSlope(contradicts ? -0.04 : 0.01, is_reliable ? 1.1 : 0.9));
   }
   std::vector<std::array<double, 3>> places;
   for (const double x : {-3.0, -0.9, -0.5, 0.5, 0.9, 3.0})

@@ -17,34 +17,34 @@ TEST(DraftChoice, TakesAsManySamplesAsTimeAllows)
 {
   DraftChoice choice(100.0);
   EXPECT_EQ(1u, choice.choose()); // nothing is known
-  choice.tell(1, 99.0);
+  choice.addTime(1, 99.0);
   EXPECT_EQ(1u, choice.choose());
-  choice.tell(1, 799.0); // a quarter of it of an eighth, an eighth of it of 1 / 22.6
+  choice.addTime(1, 799.0); // a quarter of it of an eighth, an eighth of it of 1 / 22.6
   EXPECT_EQ(32u, choice.choose());
-  choice.tell(1, 399.0);
+  choice.addTime(1, 399.0);
   EXPECT_EQ(8u, choice.choose());
-  choice.tell(1, 1e9);
+  choice.addTime(1, 1e9);
   EXPECT_EQ(DraftChoice::largest, choice.choose());
 }
 
 TEST(DraftChoice, IsChangedForLargeDifferencesOnly)
 {
   DraftChoice choice(100.0);
-  choice.tell(1, 390.0);
+  choice.addTime(1, 390.0);
   EXPECT_EQ(8u, choice.choose());
-  choice.tell(8, 1000.0); // with its tree
+  choice.addTime(8, 1000.0); // with its tree
   EXPECT_EQ(8u, choice.choose());
-  choice.tell(8, 129.0);
+  choice.addTime(8, 129.0);
   EXPECT_EQ(8u, choice.choose());
-  choice.tell(8, 51.0);
+  choice.addTime(8, 51.0);
   EXPECT_EQ(8u, choice.choose());
-  choice.tell(8, 131.0);
+  choice.addTime(8, 131.0);
   EXPECT_EQ(16u, choice.choose());
-  choice.tell(16, 1000.0); // as before
-  choice.tell(16, 49.0);
+  choice.addTime(16, 1000.0); // as before
+  choice.addTime(16, 49.0);
   EXPECT_EQ(8u, choice.choose());
-  choice.tell(8, 1000.0);
-  choice.tell(8, 24.0);
+  choice.addTime(8, 1000.0);
+  choice.addTime(8, 24.0);
   EXPECT_EQ(1u, choice.choose()); // all take 96
 }
 

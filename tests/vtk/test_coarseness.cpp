@@ -18,11 +18,11 @@ std::vector<int>
 drag(Coarseness& coarseness, int frames, const std::function<double(int)>& time)
 {
   EXPECT_EQ(1, coarseness.choose(false));
-  coarseness.tell(time(1));
+  coarseness.addTime(time(1));
   std::vector<int> factors;
   for (int i = 0; i < frames; ++i) {
     factors.push_back(coarseness.choose(true));
-    coarseness.tell(time(factors.back()));
+    coarseness.addTime(time(factors.back()));
   }
   return factors;
 }

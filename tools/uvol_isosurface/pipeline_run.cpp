@@ -99,7 +99,7 @@ runFromDisk(const Options& options, const PipelineOptions& arguments, Report& re
   report.count("points", points.size());
   auto result = pcl_uvol::runPipelineOutOfCore(
       points, parameters, arguments.makeOutOfCoreSettings(options), report.progress);
-  points.tell(report);
+  points.addTo(report);
   return result;
 }
 

@@ -35,7 +35,7 @@ public:
   /** \brief Take what a surface took of one of so many samples. The first one of as
    * many does not count: a tree was built for it. */
   void
-  tell(unsigned thinning, double milliseconds)
+  addTime(unsigned thinning, double milliseconds)
   {
     const bool is_first = thinning > 1 && thinning != told_;
     if (thinning > 1)

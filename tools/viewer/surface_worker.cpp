@@ -143,10 +143,10 @@ SurfaceWorker::extract(const SurfaceRequest& request,
   Result result{request, extract_(request, thinning, end_if_unwanted)};
   if (result.surface.prepared)
     result.surface.prepared->findFootprints(end_if_unwanted);
-  choice_.tell(thinning,
-               std::chrono::duration<double, std::milli>(
-                   std::chrono::steady_clock::now() - start)
-                   .count());
+  choice_.addTime(thinning,
+                  std::chrono::duration<double, std::milli>(
+                      std::chrono::steady_clock::now() - start)
+                      .count());
   return result;
 }
 

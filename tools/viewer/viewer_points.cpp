@@ -9,7 +9,7 @@
 namespace uvol_tools {
 
 void
-ViewerWindow::tellPoint(int column, int row)
+ViewerWindow::showPoint(int column, int row)
 {
   if (!surface_.getCloud())
     return;

@@ -129,7 +129,7 @@ ViewerWindow::setUpScene(const pcl_uvol::Background& background)
   style->click = [this](int column, int row) {
     attempt([&] {
       finish();
-      tellPoint(column, row);
+      showPoint(column, row);
     });
     render();
   };
@@ -481,15 +481,15 @@ ViewerWindow::attempt(const std::function<void()>& action)
     action();
   }
   catch (const pcl_uvol::Exception& error) {
-    tellFailure(error.asMessage().text(pcl_uvol::ParameterNames::Options));
+    showFailure(error.asMessage().text(pcl_uvol::ParameterNames::Options));
   }
   catch (const std::exception& error) {
-    tellFailure(error.what());
+    showFailure(error.what());
   }
 }
 
 void
-ViewerWindow::tellFailure(const std::string& message)
+ViewerWindow::showFailure(const std::string& message)
 {
   if (!surface_.getField().empty())
     nameIsoValue(); // which is that of the surface before

@@ -173,7 +173,7 @@ private:
 
   /** Tell what the point at a pixel holds, counted from the lower left. */
   void
-  tellPoint(int column, int row);
+  showPoint(int column, int row);
 
   /** Turn about the point under the mouse from now on. */
   void
@@ -286,7 +286,7 @@ private:
   attempt(const std::function<void()>& action);
 
   void
-  tellFailure(const std::string& message);
+  showFailure(const std::string& message);
 
   void
   show(const std::string& message);

@@ -59,7 +59,7 @@ public:
 
   /** Tell the latest progress, if there was any since the last call. */
   void
-  tell(const py::object& progress)
+  report(const py::object& progress)
   {
     std::unique_lock<std::mutex> lock(mutex_);
     if (!is_news_ || progress.is_none())
@@ -87,7 +87,7 @@ attendToPython(Exchange& exchange, const py::object& progress)
 {
   const py::gil_scoped_acquire lock;
   try {
-    exchange.tell(progress);
+    exchange.report(progress);
     if (PyErr_CheckSignals() != 0)
       throw py::error_already_set();
   }
@@ -127,7 +127,7 @@ runInterruptibly(const py::object& progress,
     std::rethrow_exception(interruption);
   if (failure)
     std::rethrow_exception(failure);
-  exchange.tell(progress);
+  exchange.report(progress);
 }
 
 } // namespace pcl_uvol::python
