@@ -2,7 +2,7 @@
 // A component of ROS 2: samples come in as PointCloud2, isopoints go out as PointCloud2
 // and the mesh as a MarkerArray, while more samples come.
 #include "conversions.h"
-#include <pcl_uvol/isosurface/sample_map.h>
+#include "sample_map.h"
 #include <pcl_uvol/mesh/surface_mesh.h>
 
 #include <pcl/conversions.h>
@@ -20,7 +20,7 @@ namespace uvol_ros {
 
 using PointCloud2 = sensor_msgs::msg::PointCloud2;
 using MarkerArray = visualization_msgs::msg::MarkerArray;
-using Map = pcl_uvol::SampleMap<pcl::PointXYZI>;
+using Map = SampleMap<pcl::PointXYZI>;
 
 class IsosurfaceNode : public rclcpp::Node {
 public:
@@ -44,14 +44,14 @@ public:
 
 private:
   struct Surface {
-    pcl_uvol::SampleMapSurface<pcl::PointXYZI> points;
+    SampleMapSurface<pcl::PointXYZI> points;
     pcl_uvol::SurfaceTriangles mesh;
   };
 
-  pcl_uvol::SampleMapParameters
+  SampleMapParameters
   declareMap()
   {
-    pcl_uvol::SampleMapParameters parameters;
+    SampleMapParameters parameters;
     parameters.window = declare_parameter("window_s", 10.0);
     parameters.most_samples =
         static_cast<std::size_t>(declare_parameter("most_samples", 100000));

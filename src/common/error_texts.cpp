@@ -247,10 +247,6 @@ const MessageText error_rows[] = {
     {"not_computable", "The expression cannot be computed.\n{marked_lines}"},
 
     // isosurface
-    {"map_window_negative", "A time window must not be negative."},
-    {"map_without_room", "A map of samples requires room for at least one sample."},
-    {"map_cube_not_allowed", "The side of cubes must be finite and not negative."},
-    {"stamp_not_finite", "The time stamp of samples must be finite."},
     {"extraction_without_isovalue",
      "IsosurfaceExtraction has no isovalue. Try: call setIsoValue or setIsoValues."},
     {"isovalue_not_finite", "The isovalue {isovalue} is not finite."},

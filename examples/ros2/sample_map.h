@@ -4,14 +4,12 @@
 #pragma once
 
 #include <pcl_uvol/common/cloud_view.h>
-#include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/export.h>
-#include <pcl_uvol/common/parameters.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 
 #include <pcl/point_cloud.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -19,14 +17,16 @@
 #include <limits>
 #include <memory>
 #include <mutex>
-#include <string>
-#include <tuple>
+#include <stdexcept>
 #include <vector>
 
-namespace pcl_uvol {
+namespace uvol_ros {
+
+using pcl_uvol::CloudView;
+using pcl_uvol::IsosurfaceParameters;
 
 /** \brief What a SampleMap keeps. */
-struct PCL_UVOL_EXPORTS SampleMapParameters {
+struct SampleMapParameters {
   /** Samples that are older than the newest by more are forgotten, in the unit of the
    * stamps, from 0. NaN, the default: none. */
   double window = std::numeric_limits<double>::quiet_NaN();
@@ -36,34 +36,73 @@ struct PCL_UVOL_EXPORTS SampleMapParameters {
   /** Side of the cubes, in units of length, from 0; it grows until three quarters of
    * the bound, or fewer, are left. 0: that of so many cubes in the samples' box. */
   double cube = 0.0;
-
-  /** \return The members under the names that JSON has for them. */
-  static auto
-  listMembers()
-  {
-    using Own = SampleMapParameters;
-    return std::make_tuple(Member{"window", &Own::window},
-                           Member{"most_samples", &Own::most_samples},
-                           Member{"cube", &Own::cube});
-  }
-
-  /** \return All parameters as an object of JSON. */
-  std::string
-  toJson() const;
-
-  /** \brief Parameters that the text does not name have their defaults.
-   * \param text an object of JSON, as toJson() writes it
-   * \throws InvalidArgument for an unknown name or a value of another type */
-  static SampleMapParameters
-  fromJson(const std::string& text);
 };
 
-/** \param parameters to look at
- * \throws InvalidArgument for a window or a side below 0, and for a bound of 0 */
-PCL_UVOL_EXPORTS void
-checkParameters(const SampleMapParameters& parameters);
-
 namespace detail {
+
+/** Room for samples that come next, so that not all of them are followed by thinning.
+ */
+constexpr double kept_part = 0.75;
+
+/** Twice the volume, about. */
+constexpr double growth = 1.26;
+
+struct CubeEntry {
+  std::array<double, 3> cube; ///< whole numbers
+  std::uint32_t sample;
+
+  bool
+  operator<(const CubeEntry& other) const
+  {
+    return cube != other.cube ? cube < other.cube : sample < other.sample;
+  }
+};
+
+/** The newest sample of each cube, in any order. */
+inline std::vector<std::uint32_t>
+findNewest(const CloudView& cloud,
+           const std::vector<std::uint32_t>& samples,
+           double side)
+{
+  std::vector<CubeEntry> entries;
+  entries.reserve(samples.size());
+  for (const std::uint32_t sample : samples) {
+    CubeEntry entry{{}, sample};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      entry.cube[axis] =
+          std::floor(static_cast<double>(cloud.xyz(sample)[axis]) / side);
+    entries.push_back(entry);
+  }
+  std::sort(entries.begin(), entries.end());
+  std::vector<std::uint32_t> newest;
+  for (std::size_t i = 0; i < entries.size(); ++i)
+    if (i + 1 == entries.size() || entries[i].cube != entries[i + 1].cube)
+      newest.push_back(entries[i].sample);
+  return newest;
+}
+
+/** The side of so many cubes in the box of samples; of a flat box those in its plane.
+ */
+inline double
+chooseSide(const CloudView& cloud,
+           const std::vector<std::uint32_t>& samples,
+           double cubes)
+{
+  double volume = 1.0;
+  int dimensions = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const std::uint32_t sample : samples) {
+      low = std::min(low, static_cast<double>(cloud.xyz(sample)[axis]));
+      high = std::max(high, static_cast<double>(cloud.xyz(sample)[axis]));
+    }
+    if (high > low) {
+      volume *= high - low;
+      ++dimensions;
+    }
+  }
+  return dimensions == 0 ? 1.0 : std::pow(volume / cubes, 1.0 / dimensions);
+}
 
 /** \brief The samples that stay when there are too many, ascending.
  *
@@ -72,24 +111,41 @@ namespace detail {
  * \param most samples that may stay, from 1
  *
  * \param cube see SampleMapParameters */
-PCL_UVOL_EXPORTS std::vector<std::uint32_t>
-thinByCubes(const CloudView& cloud, std::size_t most, double cube);
+inline std::vector<std::uint32_t>
+thinByCubes(const CloudView& cloud, std::size_t most, double cube)
+{
+  std::vector<std::uint32_t> samples;
+  for (std::size_t i = 0; i < cloud.count; ++i)
+    if (std::isfinite(cloud.xyz(i)[0]) && std::isfinite(cloud.xyz(i)[1]) &&
+        std::isfinite(cloud.xyz(i)[2]))
+      samples.push_back(static_cast<std::uint32_t>(i));
+  const auto room = std::max<std::size_t>(
+      static_cast<std::size_t>(kept_part * static_cast<double>(most)), 1);
+  double side =
+      cube > 0.0 ? cube : chooseSide(cloud, samples, static_cast<double>(room));
+  for (bool is_first = true; is_first || samples.size() > room; is_first = false) {
+    samples = findNewest(cloud, samples, side);
+    side *= growth;
+  }
+  std::sort(samples.begin(), samples.end());
+  return samples;
+}
 
 } // namespace detail
 
 /** \brief Isopoints of the samples that a SampleMap held at one moment. */
 template <typename PointT>
 struct SampleMapSurface {
-  pcl::PointCloud<PointIso> isopoints;
-  IsoEdges edges; ///< with indices into samples
+  pcl::PointCloud<pcl_uvol::PointIso> isopoints;
+  pcl_uvol::IsoEdges edges; ///< with indices into samples
   typename pcl::PointCloud<PointT>::ConstPtr samples;
-  Report report;
+  pcl_uvol::Report report;
 };
 
 /** \brief Samples that come in and go, and their isosurfaces at any moment.
  *
  * \code
- * pcl_uvol::SampleMap<pcl::PointXYZI> map;
+ * uvol_ros::SampleMap<pcl::PointXYZI> map;
  * map.append(cloud, stamp); // again and again
  * auto surface = map.extractInBackground(parameters); // while more samples come
  * show(surface.get().isopoints);
@@ -104,11 +160,15 @@ public:
   using Cloud = pcl::PointCloud<PointT>;
 
   /** \param parameters of the whole life of the map
-   * \throws InvalidArgument as checkParameters() */
+   * \throws std::invalid_argument for a window or a side below 0, and for a bound of 0
+   */
   explicit SampleMap(const SampleMapParameters& parameters = {})
       : parameters_(parameters)
   {
-    checkParameters(parameters);
+    if (parameters.window < 0.0 || parameters.most_samples == 0 ||
+        !(parameters.cube >= 0.0) || !std::isfinite(parameters.cube))
+      throw std::invalid_argument(
+          "A window and a cube are not negative, and there is room for a sample.");
   }
 
   /** \return The parameters that the map was made with. */
@@ -123,12 +183,12 @@ public:
    * \param cloud the samples
    * \param stamp their time, in any order
    *
-   * \throws InvalidArgument for a stamp that is not finite */
+   * \throws std::invalid_argument for a stamp that is not finite */
   void
   append(const Cloud& cloud, double stamp)
   {
     if (!(std::abs(stamp) <= std::numeric_limits<double>::max()))
-      throw InvalidArgument("stamp_not_finite", {});
+      throw std::invalid_argument("A time stamp is finite.");
     const std::lock_guard<std::mutex> lock(mutex_);
     newest_ = samples_.empty() ? stamp : std::max(newest_, stamp);
     for (const PointT& point : cloud)
@@ -137,7 +197,7 @@ public:
     dropOld(newest_ - parameters_.window);
     if (samples_.size() > parameters_.most_samples)
       keep(detail::thinByCubes(
-          viewOf(samples_), parameters_.most_samples, parameters_.cube));
+          pcl_uvol::viewOf(samples_), parameters_.most_samples, parameters_.cube));
   }
 
   /** \brief Forget all samples. */
@@ -179,7 +239,7 @@ public:
    * \param parameters of the extraction
    * \param threads 0 (default) = all cores
    *
-   * \throws InvalidArgument as IsosurfaceExtraction::extract */
+   * \throws pcl_uvol::InvalidArgument as IsosurfaceExtraction::extract */
   SampleMapSurface<PointT>
   extract(const IsosurfaceParameters& parameters, unsigned threads = 0) const
   {
@@ -206,7 +266,7 @@ private:
               const IsosurfaceParameters& parameters,
               unsigned threads)
   {
-    IsosurfaceExtraction<PointT> extraction;
+    pcl_uvol::IsosurfaceExtraction<PointT> extraction;
     extraction.setInputCloud(samples);
     extraction.setParameters(parameters);
     extraction.setNumberOfThreads(threads);
@@ -249,4 +309,4 @@ private:
   double newest_ = 0.0;
 };
 
-} // namespace pcl_uvol
+} // namespace uvol_ros
