@@ -2,6 +2,7 @@
 """What the tests of the Python module share. PCL_UVOL_TOOL_DIR names the folder of the tools, whose results
 are those of the module."""
 
+import contextlib
 import os
 import pathlib
 import struct
@@ -28,6 +29,26 @@ def pixels_of(path):
             kept.append(data[place + 8:place + 8 + length])
         place += length + 12
     return kept
+
+
+@contextlib.contextmanager
+def raises(error, code=None, values=None, match=None):
+    """pytest.raises for an error with this code and at least these values. Texts of the library may change, so only
+    errors without a code, those of Python and of pcl_uvol/*.py, are recognized by a match."""
+    with pytest.raises(error, match=match) as raised:
+        yield raised
+    assert getattr(raised.value, "code", None) == code
+    if values:
+        found = raised.value.values
+        assert {name: found.get(name) for name in values} == values
+
+
+@contextlib.contextmanager
+def warns(code):
+    """pytest.warns for a warning of the library with this code, which may be one of several."""
+    with pytest.warns(uvol.ResultWarning) as warned:
+        yield warned
+    assert code in [getattr(warning.message, "code", None) for warning in warned]
 
 
 @pytest.fixture

@@ -13,6 +13,7 @@ import warnings
 
 import numpy as np
 import pytest
+from conftest import raises, warns
 
 import pcl_uvol as uvol
 
@@ -95,9 +96,9 @@ def test_images_of_a_welded_mesh_close_it(tmp_path, run_tool):
     a, b, c = mesh["image_of"][mesh.triangles].T
     edges = {*zip(a, b), *zip(b, c), *zip(c, a)}
     assert len(edges) == 3 * len(mesh.triangles) and all((to, start) in edges for start, to in edges)
-    with pytest.raises(ValueError, match="Only the mesh of a periodic box"):
+    with raises(ValueError, "nothing_to_weld"):
         uvol.isosurface(samples, field="f", iso=0.3, periodic_mesh="weld")
-    with pytest.raises(ValueError, match="weld"):
+    with raises(ValueError, "wrong_parameter", {"name": "periodic_mesh", "value": '"sew"'}):
         uvol.isosurface(samples, field="f", iso=0.3, mesh=True, periodic=(1, 1, 1), periodic_mesh="sew")
 
 
@@ -176,7 +177,7 @@ def test_pickled_surfaces_are_the_same(sphere):
 
 
 def test_no_isopoints_are_a_warning(ball):
-    with pytest.warns(uvol.ResultWarning, match="outside the range") as warned:
+    with warns("no_isopoints") as warned:
         surface = uvol.isosurface(*ball, field="r", iso=7.0)
     assert len(surface) == 0 and surface.points.shape == (0, 3) and surface.normals.shape == (0, 3)
     told, warning = surface.report["warnings"][0], warned[0].message
@@ -192,51 +193,53 @@ def test_warnings_name_the_line_of_the_caller(ball):
     assert caught[0].filename == __file__
 
 
-@pytest.mark.parametrize("options, error, message", [
-    (dict(field="vle", iso=1), KeyError, "did you mean 'vel'"),
-    (dict(field="log10(q)", iso=1), KeyError, "There is no field"),
-    (dict(field="r +", iso=1), ValueError, "r \\+"),
-    (dict(field="vel", iso=1), ValueError, "components"),
-    (dict(field=5, iso=1), TypeError, "field is 5"),
-    (dict(field="r"), TypeError, "iso"),
-    (dict(field="r", iso=[]), ValueError, r"iso is \[\]: it must be"),
-    (dict(field="r", iso=np.nan), ValueError, "iso is nan"),
-    (dict(field="r", iso="0.3"), ValueError, "iso is '0.3'"),
-    (dict(field="r", iso=np.ma.masked), ValueError, "iso is masked"),
-    (dict(field="r", iso=np.ma.array([0.2, 0.3], mask=[False, True])), ValueError, "iso is"),
-    (dict(field="r", iso=[0.3, 0.2, 0.3]), ValueError, "isovalue 0.3 is given more than once"),
-    (dict(field="r", iso=1, scale=[[1, 2], [3]]), ValueError, r"scale is \[\[1, 2\], \[3\]\]"),
-    (dict(field="r", iso=1, mesh="even"), TypeError, "mesh is 'even'"),
-    (dict(field="r", iso=1, izo=2), TypeError, "izo"),
-    (dict(field="r", iso=1, outside="up"), ValueError, "lower, higher"),
-    (dict(field="r", iso=1, scale=(1, 1)), ValueError, "scale has 2"),
-    (dict(field="r", iso=1, rotate=(1, 1)), ValueError, "rotate has 2"),
-    (dict(field="r", iso=1, rotate=(0, 10, 20)), ValueError, "not be steeper"),
-    (dict(field="r", iso=1, scale=np.eye(3), rotate=(0, 1, 0)), ValueError, "without rotate"),
-    (dict(field="r", iso=1, scale=(1, 1, -1)), ValueError, "positive"),
-    (dict(field="r", iso=1, scale="automatic"), ValueError, "scale is 'automatic'"),
-    (dict(field="r", iso=1, threads=-1), ValueError, "threads is -1"),
-    (dict(field="r", iso=1, threads=1.5), TypeError, "threads is 1.5"),
-    (dict(field="r", iso=1, normal_neighbors=1), ValueError, "at least 2"),
-    (dict(field="r", iso=1, max_error=-1), ValueError, "not negative"),
-    (dict(field="r", iso=1, validate=1), ValueError, "1 fold"),
-    (dict(field="r", iso=1, level_set={"speed": 1}), ValueError, "speed"),
-    (dict(field="r", iso=1, level_set={"mu": object()}), ValueError, "parameter"),
-    (dict(field="r", iso=1, mesh={"edges": 1}), ValueError, "edges"),
-    (dict(field="r", iso=1, progress=5), TypeError, "progress is True or a function"),
+@pytest.mark.parametrize("options, error, expected", [
+    (dict(field="vle", iso=1), KeyError, dict(code="unknown_lone_field", values={"field": "vle", "similar": "vel"})),
+    (dict(field="log10(q)", iso=1), KeyError, dict(code="unknown_operand", values={"field": "q"})),
+    (dict(field="r +", iso=1), ValueError, dict(code="operand_missing_at_end")),
+    (dict(field="vel", iso=1), ValueError, dict(code="several_components", values={"name": "vel", "components": 3})),
+    (dict(field=5, iso=1), TypeError, dict(match="field is 5")),
+    (dict(field="r"), TypeError, dict(match="iso")),
+    (dict(field="r", iso=[]), ValueError, dict(match=r"iso is \[\]: it must be")),
+    (dict(field="r", iso=np.nan), ValueError, dict(match="iso is nan")),
+    (dict(field="r", iso="0.3"), ValueError, dict(match="iso is '0.3'")),
+    (dict(field="r", iso=np.ma.masked), ValueError, dict(match="iso is masked")),
+    (dict(field="r", iso=np.ma.array([0.2, 0.3], mask=[False, True])), ValueError, dict(match="iso is")),
+    (dict(field="r", iso=[0.3, 0.2, 0.3]), ValueError, dict(code="repeated_isovalue", values={"isovalue": "0.3"})),
+    (dict(field="r", iso=1, scale=[[1, 2], [3]]), ValueError, dict(match=r"scale is \[\[1, 2\], \[3\]\]")),
+    (dict(field="r", iso=1, mesh="even"), TypeError, dict(match="mesh is 'even'")),
+    (dict(field="r", iso=1, izo=2), TypeError, dict(match="izo")),
+    (dict(field="r", iso=1, outside="up"), ValueError,
+     dict(code="wrong_parameter", values={"name": "isosurface.outside", "value": '"up"'})),
+    (dict(field="r", iso=1, scale=(1, 1)), ValueError, dict(match="scale has 2")),
+    (dict(field="r", iso=1, rotate=(1, 1)), ValueError, dict(match="rotate has 2")),
+    (dict(field="r", iso=1, rotate=(0, 10, 20)), ValueError, dict(code="plunge_too_steep", values={"plunge": 20, "dip": 10})),
+    (dict(field="r", iso=1, scale=np.eye(3), rotate=(0, 1, 0)), ValueError, dict(match="without rotate")),
+    (dict(field="r", iso=1, scale=(1, 1, -1)), ValueError, dict(code="scale_not_positive")),
+    (dict(field="r", iso=1, scale="automatic"), ValueError, dict(match="scale is 'automatic'")),
+    (dict(field="r", iso=1, threads=-1), ValueError, dict(match="threads is -1")),
+    (dict(field="r", iso=1, threads=1.5), TypeError, dict(match="threads is 1.5")),
+    (dict(field="r", iso=1, normal_neighbors=1), ValueError, dict(code="few_normal_neighbors", values={"neighbors": 1})),
+    (dict(field="r", iso=1, max_error=-1), ValueError, dict(code="largest_error_not_allowed", values={"error": -1})),
+    (dict(field="r", iso=1, validate=1), ValueError, dict(code="hold_out_of_one_fold")),
+    (dict(field="r", iso=1, level_set={"speed": 1}), ValueError,
+     dict(code="unknown_parameter", values={"name": "level_set.speed"})),
+    (dict(field="r", iso=1, level_set={"mu": object()}), ValueError, dict(match="parameter")),
+    (dict(field="r", iso=1, mesh={"edges": 1}), ValueError, dict(code="unknown_parameter", values={"name": "mesh.edges"})),
+    (dict(field="r", iso=1, progress=5), TypeError, dict(match="progress is True or a function")),
 ])
-def test_mistakes_get_a_sentence(ball, options, error, message):
-    with pytest.raises(error, match=message):
+def test_mistakes_get_a_sentence(ball, options, error, expected):
+    with raises(error, **expected):
         uvol.isosurface(*ball, **options)
 
 
-@pytest.mark.parametrize("points, fields, message", [
-    (np.empty((0, 3)), {"r": []}, "empty|no point|no usable"),
-    (np.full((20, 3), np.nan), {"r": np.ones(20)}, "finite|usable"),
-    (np.random.default_rng(1).random((20, 3)), {"r": np.full(20, np.nan)}, "finite|usable|value"),
+@pytest.mark.parametrize("points, fields, code", [
+    (np.empty((0, 3)), {"r": []}, "empty_cloud"),
+    (np.full((20, 3), np.nan), {"r": np.ones(20)}, "no_usable_sample"),
+    (np.random.default_rng(1).random((20, 3)), {"r": np.full(20, np.nan)}, "no_finite_value"),
 ])
-def test_samples_without_a_value_get_a_sentence(points, fields, message):
-    with pytest.raises(ValueError, match=message):
+def test_samples_without_a_value_get_a_sentence(points, fields, code):
+    with raises(ValueError, code):
         uvol.isosurface(points, fields, iso=0.5)
 
 
@@ -355,7 +358,7 @@ def test_points_are_measured_as_the_tool_does(tmp_path, run_tool, sphere):
     told = json.loads(run_tool("uvol_measure", "points.ply", "-json"))["surfaces"]
     figures = uvol.measure(uvol.read(tmp_path / "points.ply"))
     assert figures.area.value == told["area"] and figures.genus is None
-    with pytest.raises(ValueError, match="normals"):
+    with raises(ValueError, "surface_without_normals"):
         uvol.measure(uvol.Samples(sphere.points))
 
 
@@ -372,7 +375,7 @@ def test_surfaces_are_compared_as_the_tool_does(tmp_path, run_tool, ball):
     assert told["largest_distance"] == found.largest and "largest 0.0" in repr(found)
     uvol.write(tmp_path / "module.ply", found.surface, triangles=a[1])
     assert (tmp_path / "module.ply").read_bytes() == (tmp_path / "tool.ply").read_bytes()
-    with pytest.warns(uvol.ResultWarning, match="b has no triangles") as warned:
+    with warns("no_triangles") as warned:
         assert np.isclose(uvol.compare(a, a[0]).back.largest, 0, atol=1e-6)
     assert [(warning.message.code, warning.message.values) for warning in warned] == [("no_triangles", {"surface": "b"})]
 
@@ -462,18 +465,19 @@ def test_memory_that_is_not_there_is_a_memoryerror(run_python):
         try:
             uvol.isosurface(samples, iso=5.0, threads=1)
         except MemoryError as error:
-            print(error)
+            print(error.code, error.values)
         """)
-    assert "3000000 points" in out and "B" in out
+    assert re.search(r"not_enough_memory .* 3000000 .*'needed': '[\d.]+ .?B'", out)
 
 
-@pytest.mark.parametrize("call, message", [
-    ("uvol.voronoi(points, cells=1500)", r"A grid of 1500 x \d+ x \d+ cells needs 4\d GB"),
-    ("uvol.empty(10**9, {'a': 'f8'})", "A cloud of 1000000000 points needs 20 GB"),
-    ("uvol.Interpolator(points, {'a': points[:, 0]}).grid((1000, 1000, 1000))", "An array of 1000000000 places needs 24 GB"),
-    ("uvol.Samples(points).render(size=6000)", "an image of 6000 x 6000 pixels"),
+@pytest.mark.parametrize("call, pattern", [
+    ("uvol.voronoi(points, cells=1500)", r"not_enough_memory .* 1500 x \d+ x \d+ .*'needed': '4\d GB'"),
+    ("uvol.empty(10**9, {'a': 'f8'})", "not_enough_memory .* 1000000000 .*'needed': '20 GB'"),
+    ("uvol.Interpolator(points, {'a': points[:, 0]}).grid((1000, 1000, 1000))",
+     "not_enough_memory .* 1000000000 .*'needed': '24 GB'"),
+    ("uvol.Samples(points).render(size=6000)", "memory_for_picture .*'width': 6000, 'height': 6000"),
 ])
-def test_memory_that_is_not_there_is_told_with_what_it_is_for(run_python, call, message):
+def test_memory_that_is_not_there_is_told_with_what_it_is_for(run_python, call, pattern):
     out = run_python(f"""
         import resource, numpy as np, pcl_uvol as uvol
         import pcl_uvol._charts
@@ -482,9 +486,9 @@ def test_memory_that_is_not_there_is_told_with_what_it_is_for(run_python, call, 
         try:
             {call}
         except MemoryError as error:
-            print(error)
+            print(error.code, error.values)
         """)
-    assert re.search(message, out)
+    assert re.search(pattern, out)
 
 
 @pytest.mark.parametrize("call, message", [

@@ -5,7 +5,7 @@ import concurrent.futures
 
 import numpy as np
 import pytest
-from conftest import pixels_of
+from conftest import pixels_of, raises, warns
 
 import pcl_uvol as uvol
 
@@ -62,7 +62,7 @@ def test_light_goes_through_isosurfaces(tmp_path, run_tool, ball):
     surface = uvol.read(tmp_path / "in.ply")
     surface.render(size=(200, 150), opacity=[1, 0.5, 0.2]).save(tmp_path / "module.png")
     assert pixels_of(tmp_path / "module.png") == pixels_of(tmp_path / "tool.png")
-    with pytest.raises(ValueError, match="2 opacities"):
+    with raises(ValueError, "opacities_unlike_isovalues", {"opacities": 2, "isovalues": 3}):
         surface.render(size=100, opacity=[0.1, 0.2])
 
 
@@ -90,7 +90,7 @@ def test_names_are_coloured_as_the_tools_do(tmp_path, run_tool, sphere):
         run_tool("uvol_render", "in.ply", "tool.png", "-size", "300x200", "-color", "hole", "-backend", "cpu")
         samples = uvol.read(tmp_path / "in.ply")
         if count > 20:
-            with pytest.warns(uvol.ResultWarning, match="no legend") as warned:
+            with warns("repeated_colors") as warned:
                 picture = samples.render(size=(300, 200), color="hole")
             assert {"most": 20, "field": "hole"} in [warning.message.values for warning in warned]
             assert "repeated_colors" in [warning.message.code for warning in warned]
@@ -171,8 +171,9 @@ def test_uvol_project_draws_the_same(tmp_path, run_tool, ball, view):
     found.render(view).save(tmp_path / "module.png")
     assert pixels_of(tmp_path / "module.png") == pixels_of(tmp_path / "tool.png")
     assert found._repr_png_()[:4] == b"\x89PNG"
-    for options, message in ((dict(view="up"), "no view 'up'"), (dict(size=0), "size|16384"), (dict(view=3), "must be a text")):
-        with pytest.raises((ValueError, TypeError), match=message):
+    for options, expected in ((dict(view="up"), dict(code="unknown_view", values={"view": "up"})),
+                              (dict(size=0), dict(match="size|16384")), (dict(view=3), dict(match="must be a text"))):
+        with raises((ValueError, TypeError), **expected):
             found.render(**options)
 
 
@@ -211,46 +212,47 @@ def test_a_picture_is_an_array(sphere):
     assert picture._repr_png_()[:4] == b"\x89PNG"
 
 
-@pytest.mark.parametrize("options, message", [
-    (dict(color="q"), "no field"),
-    (dict(color=3), "color is 3"),
-    (dict(colormap="jet"), "jet"),
-    (dict(size=0), "0 x 0 is not allowed"),
-    (dict(size=(1, 2, 3)), "size is"),
-    (dict(size=10**6), "pixels before averaging"),
-    (dict(view="below"), "below"),
-    (dict(up=[0, 0, 0]), "not a direction"),
-    (dict(range=(2, 1)), "lower number first"),
-    (dict(background="blue"), "white"),
-    (dict(background=(2, 0, 0)), "each 0 to 1"),
-    (dict(eye=[0, 0]), "list of 3"),
-    (dict(fov=0), "field of view"),
-    (dict(log=True, colormap="tab10", color="r"), "categorical colour map"),
-    (dict(log=True, range=(-1, 1), color="r"), "positive"),
-    (dict(exaggerate=[1, 1, 0]), "positive factors"),
-    (dict(lights=[[0, 0, 0]]), "from nowhere|not zero|direction"),
-    (dict(lights=[1, 2]), "list of 3"),
-    (dict(material={"gloss": 1}), "gloss"),
-    (dict(passes={"fills": 1}), "fills"),
-    (dict(color="|grad(r)|"), "Samples.compute adds them"),
-    (dict(at=[0, 0, 0]), "at requires eye"),
-    (dict(opacity=2), "opacities must be 0 to 1"),
-    (dict(opacity="half"), "opacity is 'half'"),
-    (dict(unit="km"), "ticks or scale_bar"),
-    (dict(title=None), "title is None: it must be a text"),
-    (dict(views=3), "sequence of sides"),
-    (dict(opacity=[]), r"opacity is \[\]"),
-    (dict(supersample=-1), "supersample is -1"),
-    (dict(passes={"smothing": "box"}), "did you mean 'smoothing'"),
-    (dict(views="iso"), "sequence of sides"),
-    (dict(views=["iso", "below"]), "below"),
-    (dict(views=["iso", "top"], eye=[1, 2, 3]), "cannot be combined with eye"),
-    (dict(size=20, views=["iso", "top"]), "too small"),
-    (dict(scale_bar=True, exaggerate=[1, 1, 2]), "cannot be combined with exaggerate"),
-    (dict(surface_color="red"), "surface_color is 'red'"),
-    (dict(log="no"), "log is 'no': it must be True or False"),
-    (dict(ticks=1), "ticks is 1"),
+@pytest.mark.parametrize("options, expected", [
+    (dict(color="q"), dict(code="unknown_lone_field", values={"field": "q"})),
+    (dict(color=3), dict(match="color is 3")),
+    (dict(colormap="jet"), dict(code="unknown_color_map", values={"map": "jet"})),
+    (dict(size=0), dict(match="0 x 0 is not allowed")),
+    (dict(size=(1, 2, 3)), dict(match="size is")),
+    (dict(size=10**6), dict(code="bad_picture_size", values={"width": 10**6, "height": 10**6})),
+    (dict(view="below"), dict(code="unknown_view", values={"view": "below"})),
+    (dict(up=[0, 0, 0]), dict(code="camera_up_of_zero")),
+    (dict(range=(2, 1)), dict(code="bad_picture_range")),
+    (dict(background="blue"), dict(code="wrong_parameter", values={"name": "background", "value": '"blue"'})),
+    (dict(background=(2, 0, 0)), dict(code="bad_picture_color")),
+    (dict(eye=[0, 0]), dict(code="wrong_parameter", values={"name": "eye"})),
+    (dict(fov=0), dict(code="bad_field_of_view", values={"degrees": 0})),
+    (dict(log=True, colormap="tab10", color="r"), dict(code="logarithms_of_categories", values={"map": "tab10"})),
+    (dict(log=True, range=(-1, 1), color="r"), dict(code="bad_logarithmic_range")),
+    (dict(exaggerate=[1, 1, 0]), dict(code="bad_exaggerate")),
+    (dict(lights=[[0, 0, 0]]), dict(code="light_from_nowhere")),
+    (dict(lights=[1, 2]), dict(code="wrong_parameter", values={"name": "lights"})),
+    (dict(material={"gloss": 1}), dict(code="unknown_parameter", values={"name": "material.gloss"})),
+    (dict(passes={"fills": 1}), dict(code="unknown_parameter", values={"name": "passes.fills", "similar": "fill"})),
+    (dict(color="|grad(r)|"), dict(code="no_derivatives", values={"field": "|grad(r)|"})),
+    (dict(at=[0, 0, 0]), dict(code="picture_at_without_eye")),
+    (dict(opacity=2), dict(code="bad_opacity", values={"opacity": 2})),
+    (dict(opacity="half"), dict(match="opacity is 'half'")),
+    (dict(unit="km"), dict(code="picture_unit_alone")),
+    (dict(title=None), dict(match="title is None: it must be a text")),
+    (dict(views=3), dict(match="sequence of sides")),
+    (dict(opacity=[]), dict(match=r"opacity is \[\]")),
+    (dict(supersample=-1), dict(match="supersample is -1")),
+    (dict(passes={"smothing": "box"}),
+     dict(code="unknown_parameter", values={"name": "passes.smothing", "similar": "smoothing"})),
+    (dict(views="iso"), dict(match="sequence of sides")),
+    (dict(views=["iso", "below"]), dict(code="unknown_view", values={"view": "below"})),
+    (dict(views=["iso", "top"], eye=[1, 2, 3]), dict(code="picture_views_and_eye")),
+    (dict(size=20, views=["iso", "top"]), dict(code="picture_too_small_for_views")),
+    (dict(scale_bar=True, exaggerate=[1, 1, 2]), dict(code="scale_bar_of_several_scales")),
+    (dict(surface_color="red"), dict(match="surface_color is 'red'")),
+    (dict(log="no"), dict(match="log is 'no': it must be True or False")),
+    (dict(ticks=1), dict(match="ticks is 1")),
 ])
-def test_mistakes_get_a_sentence(sphere, options, message):
-    with pytest.raises((ValueError, KeyError, TypeError), match=message):
+def test_mistakes_get_a_sentence(sphere, options, expected):
+    with raises((ValueError, KeyError, TypeError), **expected):
         sphere.render(**options)
