@@ -20,8 +20,10 @@ describeType(const T& value)
       words += std::string(words.empty() ? "{\"" : ", \"") + word.word + '"';
     return words + "}";
   }
-  else if constexpr (detail::IsOptional<T>::value)
-    return describeType(typename T::value_type()) + ", optional";
+  else if constexpr (detail::IsOptional<T>::value) {
+    static const typename T::value_type any{}; // Eigen leaves others undefined
+    return describeType(any) + ", optional";
+  }
   else if constexpr (std::is_same_v<T, bool>)
     return "bool";
   else if constexpr (std::is_integral_v<T>)

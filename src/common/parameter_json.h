@@ -28,13 +28,6 @@ struct HasMembers<T, std::void_t<decltype(T::listMembers())>> : std::true_type {
 };
 
 template <typename T>
-struct IsOptional : std::false_type {
-};
-template <typename T>
-struct IsOptional<std::optional<T>> : std::true_type {
-};
-
-template <typename T>
 constexpr bool is_eigen = std::is_base_of_v<Eigen::DenseBase<T>, T>;
 
 /** What is not given, NaN or an empty optional, is null. */

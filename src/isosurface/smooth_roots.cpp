@@ -263,7 +263,7 @@ private:
 
   /** Fit again in the metrics of the samples around, where these are stretched. */
   void
-  fitInLocalMetrics(const UncertainFit* doubtful,
+  fitInLocalMetrics(const UncertainFit* uncertain,
                     std::size_t count,
                     const IsoEdge* edges,
                     PointIso* points,

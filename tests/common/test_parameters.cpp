@@ -52,6 +52,8 @@ change(T& value)
     value = !value.value_or(true);
   else if constexpr (std::is_same_v<T, std::optional<pcl_uvol::MeshingParameters>>)
     value.emplace();
+  else if constexpr (std::is_same_v<T, std::optional<Eigen::Array3d>>)
+    value.emplace(0.0, 1.5, 0.0);
   else if constexpr (std::is_same_v<T, std::vector<double>>)
     value.push_back(0.1);
   else if constexpr (std::is_same_v<T, std::vector<std::string>>)

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <type_traits>
@@ -104,6 +105,13 @@ forEachDescribed(Visit&& visit)
 namespace detail {
 
 template <typename T>
+struct IsOptional : std::false_type {
+};
+template <typename T>
+struct IsOptional<std::optional<T>> : std::true_type {
+};
+
+template <typename T>
 bool
 areEqual(const T& a, const T& b)
 {
@@ -112,6 +120,8 @@ areEqual(const T& a, const T& b)
   else if constexpr (std::is_base_of_v<Eigen::ArrayBase<T>, T> ||
                      std::is_base_of_v<Eigen::MatrixBase<T>, T>)
     return (a.array() == b.array()).all();
+  else if constexpr (IsOptional<T>::value)
+    return a && b ? areEqual(*a, *b) : !a && !b;
   else
     return a == b;
 }
