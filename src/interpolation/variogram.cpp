@@ -321,7 +321,7 @@ computeEmpiricalVariograms(const SampledFields& sampled,
   for (std::size_t i = 0; i < centers.size(); ++i) {
     const auto near = finder.find(samples.getPositions()[centers[i]], 1.0f);
     for (std::size_t j = 0; j < near.size; ++j)
-      if (near.samples[j] % step != 0) // pairs of centers are below, once
+      if (near.samples[j] != centers[i])
         add(centers[i], near.samples[j]);
     for (std::size_t j = 0; j < i; ++j)
       add(centers[i], centers[j]);

@@ -13,8 +13,6 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <set>
-#include <utility>
 #include <vector>
 
 namespace test_kriging_system {
@@ -273,59 +271,6 @@ variogramOf(const SampledFields& sampled,
   return computeEmpiricalVariograms(
              sampled, 0, Eigen::Matrix3d::Identity(), 0, estimator)
       .all;
-}
-
-/** Pairs no farther apart than a third of the farthest one, each once: those of
- * samples out of all parts, and of these with their 32 nearest. */
-std::size_t
-countPairs(const SampledFields& sampled)
-{
-  const std::vector<Position>& positions = sampled.samples->getPositions();
-  const std::size_t step = (positions.size() + 599) / 600;
-  const auto distance = [&](std::size_t a, std::size_t b) {
-    double sum = 0.0;
-    for (int axis = 0; axis < 3; ++axis)
-      sum +=
-          std::pow(static_cast<double>(positions[a][axis]) - positions[b][axis], 2.0);
-    return std::sqrt(sum);
-  };
-  std::set<std::pair<std::size_t, std::size_t>> pairs;
-  double farthest = 0.0;
-  for (std::size_t center = 0; center < positions.size(); center += step) {
-    std::vector<std::pair<double, std::size_t>> others;
-    for (std::size_t i = 0; i < positions.size(); ++i)
-      if (i != center)
-        others.emplace_back(distance(center, i), i);
-    std::sort(others.begin(), others.end());
-    for (std::size_t i = 0; i < others.size(); ++i)
-      if (i < 32 || others[i].second % step == 0) {
-        pairs.insert(std::minmax(center, others[i].second));
-        farthest = std::max(farthest, others[i].first);
-      }
-  }
-  return static_cast<std::size_t>(
-      std::count_if(pairs.begin(), pairs.end(), [&](const auto& pair) {
-        return distance(pair.first, pair.second) <= farthest / 3.0;
-      }));
-}
-
-TEST(EmpiricalVariogram, CountsEachPairOnceInAnyOrder)
-{
-  for (const std::uint32_t count : {400u, 1900u}) {
-    std::vector<float> xyz, reversed;
-    for (std::uint32_t i = 0; i < 3 * count; ++i)
-      xyz.push_back(static_cast<float>(uniformAt(7, i / 3, i % 3)));
-    for (std::uint32_t i = count; i-- > 0;)
-      reversed.insert(reversed.end(), &xyz[3 * i], &xyz[3 * i] + 3);
-    const SampledFields sampled = sampleWave(xyz);
-    const EmpiricalVariogram found = variogramOf(sampled),
-                             other = variogramOf(sampleWave(reversed));
-    EXPECT_EQ(static_cast<double>(countPairs(sampled)),
-              std::accumulate(found.pairs.begin(), found.pairs.end(), 0.0));
-    EXPECT_EQ(found.pairs, other.pairs);
-    EXPECT_EQ(found.value, other.value);
-    EXPECT_EQ(found.distance, other.distance);
-  }
 }
 
 TEST(EmpiricalVariogram, HasNoClassOfFewPairs)
