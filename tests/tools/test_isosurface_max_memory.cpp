@@ -190,7 +190,7 @@ TEST_F(MaxMemory, SaysWhatIsWrong)
 {
   for (const std::string size : {"x", "0", "1.5", "2X", "M", "nan", "1e30"})
     expectFailure(iso_ + "-max-memory " + size, size == "1.5" ? 1 : 2, "memory");
-  expectFailure(iso_ + "-max-memory 100M", 1, "at least");
+  expectError(iso_ + "-max-memory 100M", "memory_for_pieces");
   expectFailure(iso_ + bound_ + "-smooth", 2, "-smooth");
   expectFailure(iso_ + bound_ + "-scale auto", 2, "-scale auto");
   expectFailure(iso_ + bound_ + "-fill-gaps -smooth", 2, "-smooth, -fill-gaps: all");

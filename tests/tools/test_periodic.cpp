@@ -225,7 +225,7 @@ TEST_F(Periodic, WhatGoesWithWhat)
                                   "-periodic 8,8,8 -validate 3",
                                   "-periodic 8,8,8 -max-memory 1G"})
     EXPECT_EQ(2, run(std::string("-iso 0 ") + wrong).exit_code) << wrong;
-  expectFailure("-iso 0 -periodic header", 1, "names no box");
+  expectError("-iso 0 -periodic header", "no_box_in_file");
 }
 
 } // namespace test_periodic

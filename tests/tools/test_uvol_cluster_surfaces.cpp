@@ -148,9 +148,8 @@ TEST_F(ClusterTool, SurfacesNeedCoordinates)
 {
   uvol_test::writeFile(in_, attributeTable());
   for (const char* surface : {"membership", "distance", "hull", "hull-distance"})
-    expectFailure(attributes_ + "-cluster 1 -surface " + surface,
-                  1,
-                  "The input has no coordinates");
+    expectError(attributes_ + "-cluster 1 -surface " + surface,
+                "no_coordinates_to_draw");
 }
 
 TEST_F(ClusterTool, TinyClustersGetASurfaceOrAClearAnswer)
@@ -164,11 +163,9 @@ TEST_F(ClusterTool, TinyClustersGetASurfaceOrAClearAnswer)
   expectFailure("-cluster 0 -surface hull-distance", 1, "cluster");
   for (const char* surface : {"hull", "hull-distance"}) {
     const std::string option = std::string(" -surface ") + surface;
-    expectFailure(
-        "-cluster 0 -distance 0.5" + option, 1, "hull requires at least three");
-    expectFailure(
-        "-cluster 1" + option, 1, "hull requires at least three"); // two points
-    expectFailure("-cluster 1 -distance 2" + option, 1, "hull requires at least three");
+    expectError("-cluster 0 -distance 0.5" + option, "few_points_for_hull");
+    expectError("-cluster 1" + option, "few_points_for_hull"); // two points
+    expectError("-cluster 1 -distance 2" + option, "few_points_for_hull");
   }
   const double ball = 4.0 / 3.0 * M_PI * 0.125;
   EXPECT_NEAR(

@@ -369,12 +369,12 @@ TEST_F(MeasureTool, RefusesWrongCommandLines)
   expectFailure("-field rho -iso 0.5 -plot area", 2, "-png");
   expectFailure("-field rho -iso 0.5 -samples " + in_, 2, "-samples");
   expectFailure("-field rho -iso 0.2,0.5 -png " + picture_ + " -plot no", 2, "no");
-  expectFailure("-field rho -iso 7", 1, "no isosurface");
+  expectError("-field rho -iso 7", "no_surface_to_measure");
   expectFailure("-field nothing -iso 7", 1, "nothing");
   expectFailure("-block 1,1,1", 2, "-iso");
   expectFailure("-field rho -iso 0.5 -block 0,1,1", 1, "positive");
   expectFailure("-field rho -iso 0.5 -block 1,1,1 -pieces", 2, "-pieces");
-  expectFailure("-field rho -iso 0.5 -block 1e-4,1e-4,1e-4", 1, "larger blocks");
+  expectError("-field rho -iso 0.5 -block 1e-4,1e-4,1e-4", "too_many_blocks");
   out_ = folder_ / "out.jpg";
   expectFailure("-field rho -iso 0.5", 1, ".jpg");
 }

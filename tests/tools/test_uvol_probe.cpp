@@ -373,28 +373,27 @@ TEST_F(ProbeTool, RefusesNonsense)
   expectFailure(line + "-k 9", 2, "-k needs -model kriging");
   expectFailure(line + "-power 2", 2, "-power needs -model shepard");
   expectFailure(line + "-block 1,1,1", 2, "-block needs -model kriging");
-  expectFailure(line + "-model kriging -block 1,-1,1", 1, "side of a block");
+  expectError(line + "-model kriging -block 1,-1,1", "interpolation_number");
   expectFailure(line + "-model kriging -variogram cubic", 2, "-variogram starts with");
   expectFailure(line + "-model kriging -variogram gaussian,1,2", 2, "takes 3 numbers");
   expectFailure(line + "-model kriging -variogram gaussian,1,2,-3", 1, "range");
   const std::string variogram = " -variogram-csv " + (folder_ / "v.csv");
   expectFailure(line + variogram, 2, "-variogram-csv needs -model kriging");
-  expectFailure("-field same -line 0,0,0,1,1,1 -model kriging" + variogram,
-                1,
-                "The field same is the same at all samples: there is no variogram.");
+  expectError("-field same -line 0,0,0,1,1,1 -model kriging" + variogram,
+              "no_variogram_of_constant");
   expectFailure(line + "-contours 1", 2, "-contours needs -png");
   expectFailure(line + "-png " + (folder_ / "a.png") + " -log", 2, "-log needs -plane");
   expectFailure("-field wave -grid 8 -png " + (folder_ / "a.png"), 2, "-png needs");
   expectFailure("-field wave -plane w=3", 2, "-plane is x=");
   expectFailure("-field wave -plane 1,2,3,0,0,0", 2, "no direction");
-  expectFailure("-field wave -plane z=3", 1, "The plane misses the box of the data");
+  expectError("-field wave -plane z=3", "plane_misses_data");
   expectFailure("-field wave -plane z=3 -size 4x4x4", 2, "-size is one number");
   expectFailure("-field wave -grid 8x8", 2, "-grid is one number");
-  expectFailure("-field wave -grid 8 -box 0,0,0,-1,1,1", 1, "box of a grid");
-  expectFailure("-field rho -grid 8", 1, "There is no field 'rho'");
-  expectFailure("-grid 8", 1, "Name one of the scalar fields");
+  expectError("-field wave -grid 8 -box 0,0,0,-1,1,1", "unordered_box");
+  expectError("-field rho -grid 8", "unknown_lone_field", "'rho'");
+  expectError("-grid 8", "several_scalar_fields");
   expectFailure("-field wave,, -grid 8", 2, "-field has an empty name");
-  expectFailure("-field wave -line 1,1,1,1,1,1", 1, "two different ends");
+  expectError("-field wave -line 1,1,1,1,1,1", "line_without_ends");
   expectFailure("-field wave -points " + in_ + " -validate 1", 2, "-validate");
   expectFailure(line + "-validate-by random", 2, "-validate-by needs -validate");
   expectFailure(line + "-validate 21 -validate-by hole", 1, "2 to 20");

@@ -4,6 +4,7 @@
 
 #include "common/scalar_field.h"
 #include "support/environment.h"
+#include "tools/json_warnings.h"
 #include "tools/sentences.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/io/dataset.h>
@@ -69,19 +70,42 @@ protected:
                 const std::string& text) const
   {
     const auto result = run(options);
-    EXPECT_EQ(exit_code, result.exit_code) << options << ": " << result.err;
     EXPECT_NE(std::string::npos, result.err.find(text))
         << options << ": " << result.err;
+    expectOneSentence(options, exit_code, result);
+  }
+
+  /** The same for an error of the library, which has a code.
+   * \param value that its text has */
+  void
+  expectError(const std::string& options,
+              const std::string& code,
+              const std::string& value = "") const
+  {
+    const auto result = run(options + " -json");
+    EXPECT_TRUE(tellsOf(result, code)) << options << ": " << result.err;
+    EXPECT_NE(std::string::npos, result.err.find(value))
+        << options << ": " << result.err;
+    expectOneSentence(options, 1, result);
+  }
+
+  const std::string tool_;
+  TemporaryFolder folder_;
+  std::string in_ = folder_ / "in.csv", out_;
+
+private:
+  void
+  expectOneSentence(const std::string& options,
+                    int exit_code,
+                    const CommandResult& result) const
+  {
+    EXPECT_EQ(exit_code, result.exit_code) << options << ": " << result.err;
     const bool is_marked = result.err.find("\n  ") != std::string::npos;
     EXPECT_EQ(is_marked ? 3 : 1, std::count(result.err.begin(), result.err.end(), '\n'))
         << result.err;
     expectSentences(tool_.substr(tool_.rfind('/') + 1), result);
     EXPECT_EQ(std::vector<std::string>{"in.csv"}, folder_.list()) << options;
   }
-
-  const std::string tool_;
-  TemporaryFolder folder_;
-  std::string in_ = folder_ / "in.csv", out_;
 };
 
 /** Command lines in a folder of their own. */
