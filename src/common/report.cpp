@@ -70,7 +70,7 @@ Report::time(const std::string& step, double milliseconds_spent)
 void
 Report::warn(std::string code, std::vector<MessageValue> values)
 {
-  warn({Message(std::move(code), std::move(values))});
+  warnings.emplace_back(std::move(code), std::move(values));
 }
 
 void

@@ -416,7 +416,7 @@ TEST(Message, ReportsKeepThem)
   EXPECT_EQ(2.0, uvol_test::numberOf(report.warnings[1], "far_points"));
 }
 
-TEST(Message, ReportsKeepEachOnce)
+TEST(Message, ReportsTakeEachOfAnotherOnce)
 {
   pcl_uvol::Report report, other;
   for (pcl_uvol::Report* const one : {&report, &other, &other})
@@ -424,7 +424,7 @@ TEST(Message, ReportsKeepEachOnce)
   other.warn("far_points", {{"far_points", 3}});
   report.merge(other);
   report.warn({Message("far_points", {{"far_points", 3}})});
-  EXPECT_EQ(2u, other.warnings.size());
+  EXPECT_EQ(3u, other.warnings.size());
   EXPECT_EQ(2u, report.warnings.size());
 }
 
@@ -445,15 +445,15 @@ TEST(MessageOfAnException, IsItsText)
 TEST(MessageOfAnException, ComesThroughCopiesAndBases)
 {
   Message message("unknown_snapshot", {{"path", "a.h5"}});
-  message.about = "list.pvd";
+  message.about = "Cannot read 'a.h5'";
   try {
     throw IOError(message);
   }
   catch (const pcl_uvol::Exception& error) {
     EXPECT_EQ(message, error.asMessage());
     EXPECT_EQ(
-        "list.pvd: Cannot read 'a.h5': particles requires a snapshot, and the file "
-        "is not a known snapshot.",
+        "Cannot read 'a.h5': particles requires a snapshot, and the file is not a "
+        "known snapshot.",
         std::string(error.what()));
     const pcl_uvol::Exception copy = error;
     EXPECT_EQ(message, copy.asMessage());

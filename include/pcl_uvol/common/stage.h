@@ -63,13 +63,13 @@ struct PCL_UVOL_EXPORTS Report {
   void
   time(const std::string& step, double milliseconds_spent);
 
-  /** \brief Append a warning, unless the report has it already.
+  /** \brief Append a warning.
    * \param code row of the table of messages
    * \param values all that the text of that row holds */
   void
   warn(std::string code, std::vector<MessageValue> values = {});
 
-  /** \brief The same of several.
+  /** \brief Append those of several that the report does not have yet.
    * \param messages in the order in which they are appended */
   void
   warn(const std::vector<Message>& messages);

@@ -43,8 +43,11 @@ coverCloud(const Dataset& dataset,
   if (splats.cloud.empty())
     throw InvalidArgument("cloud_without_usable_splats",
                           {{"cloud", shortenText(look.name)}});
-  for (Message& warning : own.warnings)
+  for (Message& warning : own.warnings) {
     warning.about = look.name;
+    report.warnings.push_back(warning); // each time: reports count equal ones
+  }
+  own.warnings.clear();
   report.merge(own);
   SceneCloud cloud;
   cloud.splats = pcl::make_shared<pcl::PointCloud<PointSplat>>(std::move(splats.cloud));
