@@ -256,7 +256,8 @@ TEST(IsopointChoice, GoesBackToEdgesBetweenLines)
   EXPECT_GE(meanCosine(uvol_test::toIsopoints(chosen), truth),
             meanCosine(uvol_test::toIsopoints(fit), truth));
   EXPECT_EQ(LocalDimension::Line, chosen.sampling->most);
-  ASSERT_EQ(2u, chosen.report.warnings.size());
+  ASSERT_EQ(3u, chosen.report.warnings.size());
+  EXPECT_EQ("unlocated_isopoints", chosen.report.warnings[2].code);
   EXPECT_EQ("contradicted_isopoints", chosen.report.warnings[1].code);
   EXPECT_EQ("unconstrained_isopoints", chosen.report.warnings[0].code);
   EXPECT_EQ(1.0, uvol_test::numberOf(chosen.report.warnings[0], "validate"));

@@ -146,7 +146,7 @@ TEST_F(TimedSeries, FilesWithoutATimeAreNamed)
   const auto result = run("'in_{:04d}.csv' '{t}.csv'");
   EXPECT_EQ(1, result.exit_code);
   EXPECT_NE(std::string::npos,
-            result.err.find("'in_0002.csv' has no header that names its time"))
+            result.err.find("'in_0002.csv': it has no header that names its time"))
       << result.err;
 }
 

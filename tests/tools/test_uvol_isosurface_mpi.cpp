@@ -350,7 +350,7 @@ TEST_F(IsosurfaceMpi, EndsWithOneSentenceAndNoOutput)
 
   const std::string whole = uvol_test::readFile(folder_ / "in_1.vtp");
   uvol_test::writeFile(folder_ / "in_1.vtp", whole.substr(0, whole.size() / 2));
-  expectFailure(3, "'in_*.vtp'" + options, 1, "in_1.vtp': it is truncated");
+  expectFailure(3, "'in_*.vtp'" + options, 1, "in_1.vtp': it is incomplete");
   Dataset other = rowsOf(dataset, 100, 200);
   setField(other, "more", std::vector<float>(100));
   save("in_1.vtp", other);
