@@ -35,11 +35,13 @@ const MessageText file_error_rows[] = {
      "the file{is_packed| to .gz|}."},
 
     // formats
+    {"no_ending",
+     "its name has no ending. Formats: .pcd, .ply, text, VTK, .las, .npy, .npz, "
+     ".nc, .bgeo, PLOT3D, Exodus, EnSight, OpenFOAM, HDF5 and Gadget."},
     {"unknown_ending",
-     "{has_ending|the ending '{ending}' is not known|its name has no "
-     "ending}{has_similar|, but {similar} is|}; the formats are .pcd, .ply, .csv, "
-     ".txt, .xyz, .dat, .tsv, .vtk, .vtp, .vtu, .vts, .las, .npy, .npz, .nc, .bgeo, "
-     "PLOT3D, Exodus, EnSight, OpenFOAM, HDF5 and Gadget."},
+     "the ending '{ending}' is not known{has_similar|, but {similar} is|}. Formats: "
+     ".pcd, .ply, text, VTK, .las, .npy, .npz, .nc, .bgeo, PLOT3D, Exodus, EnSight, "
+     "OpenFOAM, HDF5 and Gadget."},
     {"convertible_ending", "the ending '{ending}' is not known; {way}."},
     {"other_ending", "{what} are read from {endings}."},
     {"unwritten_ending", "{what} are written as {endings}."},
@@ -60,9 +62,9 @@ const MessageText file_error_rows[] = {
      "it contains curves or surfaces (primitives of kind {kind}), but only particles "
      "can be read. Try: Houdini's Add node, which keeps the points."},
     {"vtkhdf_type",
-     "its type is '{type}', but only PolyData, UnstructuredGrid and ImageData can be "
-     "read; {has_part|behind the file a part of it can be named, as in "
-     "file.vtkhdf:'{part}'|ParaView saves others as .vtu}."},
+     "its type is '{type}', but PolyData, UnstructuredGrid and ImageData can be "
+     "read. {has_part|Try: name a part of it, as in file.vtkhdf:'{part}'|ParaView "
+     "saves others as .vtu}."},
     {"several_times",
      "it contains {what} of several times; ParaView saves one of them as {ending}."},
 
@@ -137,9 +139,8 @@ const MessageText file_error_rows[] = {
      "or with named fields."},
     {"no_position_array", "no array of it has a usual name of coordinates ({names})."},
     {"no_usual_coordinates",
-     "{has_group|the group '{group}' has no|it is not a snapshot, and none of its "
-     "groups has} tables of coordinates with a usual name (x, y, z or Coordinates, "
-     "positions, pos). Try: name them, as in file.h5:/group/x,y,z."},
+     "it has no tables x, y, z, Coordinates, positions or pos{has_group| in "
+     "'{group}'|}. Try: name your coordinates, as in file.h5:/group/x,y,z."},
     {"not_coordinate_tables",
      "'{name}' names neither a group, nor one table of positions, nor three of "
      "coordinates."},

@@ -94,12 +94,10 @@ throwUnknown(const std::string& path, const std::string& ending)
     if (ending == known.ending)
       throwUnreadable(path, {"convertible_ending", ending, known.way});
   const std::string nearest = findSimilar(listLoadedEndings(), ending);
+  if (ending.empty())
+    throwUnreadable(path, "no_ending");
   throwUnreadable(path,
-                  {"unknown_ending",
-                   !ending.empty(),
-                   shortenText(ending),
-                   !nearest.empty(),
-                   nearest});
+                  {"unknown_ending", shortenText(ending), !nearest.empty(), nearest});
 }
 
 FileFormat

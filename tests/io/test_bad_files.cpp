@@ -106,7 +106,7 @@ TEST(BadFiles, MissingFolderEmptyUnknown)
   runCommand("mkdir '" + (named / "d.pcd") + "'");
   EXPECT_EQ(codeOf([&] { loadDataset(named / "d.pcd"); }), "is_directory");
   EXPECT_EQ(errorOf("a.jpg", "x"), "unknown_ending");
-  EXPECT_EQ(errorOf("a", "x"), "unknown_ending");
+  EXPECT_EQ(errorOf("a", "x"), "no_ending");
 }
 
 TEST(BadFiles, EveryTruncationIsFound)
