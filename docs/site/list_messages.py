@@ -18,6 +18,7 @@ LITERALS = r'((?:"(?:[^"\\\n]|\\.)*"\s*)+)'
 ROW = re.compile(r'\{"([a-z0-9_]+)",\s*' + LITERALS + r"\}")
 USED = re.compile(r'(?:\b(?:warn|Message|throw (?:\w+::)*\w+)\(|push_back\(\{)\s*"([a-z0-9_]+)",\s*[{v]')
 ADVICE = re.compile(r"^### `([a-z0-9_]+)`\n\n> .*\n\n([^#\n].*)$", re.MULTILINE)
+PLURALS = {"are": "is", "were": "was", "have": "has", "they": "it", "their": "its", "do": "does"}
 TEXT = "text"  # the code of texts that are in no table
 QUOTED = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
 
@@ -54,6 +55,11 @@ def split_choice(inner):
     return parts
 
 
+def singular(words):
+    """The words of a clause without what tells one thing from several."""
+    return {PLURALS.get(word.lower(), word.lower()).rstrip("s") for word in words.split()}
+
+
 def readable(text):
     """A text as a page shows it: values as "...", parameters as options."""
     shown, i = "", 0
@@ -71,9 +77,9 @@ def readable(text):
             shown += "..."
         else:
             one, other = (readable(part) for part in (parts[1:] + [""])[:2])
-            # Of two clauses both are shown, of "point" and "points" the second.
-            words = sorted([one.count(" "), other.count(" ")])
-            shown += (" " if other[:1] == " " else "") + f"{other.strip()} / {one.strip()}" if words[0] >= 2 else other or one
+            # Of singular and plural the second is shown, of others both.
+            is_plural = singular(one) == singular(other) or not one or not other or other[0] == ";"
+            shown += (other or one) if is_plural else (" " if other[:1] == " " else "") + f"{other.strip()} / {one.strip()}"
         i = end + 1
     return shown.replace("|", "\\|").replace("\\n...", "")  # the marked lines of an expression
 
