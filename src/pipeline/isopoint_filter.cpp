@@ -14,7 +14,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -91,10 +90,6 @@ findUnlocated(const pcl::PointCloud<PointIso>& isopoints,
     }
   const auto counts =
       allGatherItems(communicator, std::vector<std::size_t>{own.size()});
-  const std::size_t before =
-      std::accumulate(counts.begin(),
-                      counts.begin() + static_cast<std::ptrdiff_t>(communicator.rank()),
-                      std::size_t{0});
   const std::vector<InGap> all = allGatherItems(communicator, own);
   constexpr double infinite = std::numeric_limits<double>::infinity();
   std::vector<Better> found(all.size(), {infinite, infinite});
@@ -109,20 +104,27 @@ findUnlocated(const pcl::PointCloud<PointIso>& isopoints,
     if (!others.empty())
       findBetter(isopoints, others, threads, all, found);
   }
-  const std::vector<Better> of_all = allGatherItems(communicator, found);
-  std::vector<std::uint8_t> is_unlocated(isopoints.size());
-  total = 0;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    Better best{infinite, infinite};
-    for (std::size_t j = i; j < of_all.size(); j += all.size())
-      if (of_all[j].distance < best.distance)
-        best = of_all[j];
-    if (!(best.distance + best.error < static_cast<double>(all[i].error)))
-      continue;
-    ++total;
-    if (i >= before && i < before + bridged.size())
-      is_unlocated[bridged[i - before]] = 1;
+  std::vector<Bytes> answers(counts.size()); // for those who asked
+  const Better* next = found.data();
+  for (std::size_t process = 0; process < counts.size(); next += counts[process++])
+    ByteWriter(answers[process]).put(next, counts[process]);
+  std::vector<Better> best(own.size(), {infinite, infinite});
+  for (const Bytes& answer : communicator.allToAll(std::move(answers))) {
+    std::vector<Better> of_one;
+    ByteReader(answer).get(of_one);
+    for (std::size_t i = 0; i < best.size(); ++i)
+      if (of_one[i].distance < best[i].distance)
+        best[i] = of_one[i];
   }
+  std::vector<std::uint8_t> is_unlocated(isopoints.size());
+  std::vector<std::uint64_t> count{0};
+  for (std::size_t i = 0; i < own.size(); ++i)
+    if (best[i].distance + best[i].error < static_cast<double>(own[i].error)) {
+      is_unlocated[bridged[i]] = 1;
+      ++count[0];
+    }
+  communicator.allReduce(count);
+  total = count[0];
   return is_unlocated;
 }
 
