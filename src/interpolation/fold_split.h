@@ -10,7 +10,7 @@
 namespace pcl_uvol::detail {
 
 /** \brief The points of a fold, and all others. */
-struct FoldSplit {
+struct PCL_UVOL_EXPORTS FoldSplit {
   pcl::Indices left_out, rest;
 
   /** \param indices points to take part

@@ -6,6 +6,7 @@
 #include "pipeline/dataset_info.h"
 #include "pipeline/hold_out.h"
 #include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

@@ -275,7 +275,9 @@ printFigures(const PlainMesh& mesh, const Solid& solid)
   pcl_uvol::SurfaceMeasures measures;
   measures.setInputSurface(vertices, mesh.triangles);
   for (const bool curved : {false, true}) {
-    measures.setParameters({curved, false});
+    pcl_uvol::SurfaceMeasuresParameters parameters;
+    parameters.curved = curved;
+    measures.setParameters(parameters);
     const auto figures = measures.compute();
     const pcl_uvol::PieceMeasures& all = figures.isovalues[0];
     if (!curved && all.genus)
