@@ -19,7 +19,7 @@ using uvol_tools::Fact;
 using uvol_tools::Facts;
 using uvol_tools::Options;
 
-constexpr std::size_t most_fields_told = 1000;
+constexpr std::size_t most_fields_listed = 1000;
 
 struct Surface {
   Dataset vertices;
@@ -69,7 +69,7 @@ describe(const SurfaceDistances& distances, const std::string& name, Facts& fact
                                      {"farthest", {at[0], at[1], at[2]}}}));
   Facts fields;
   for (const FieldDifference& field : distances.fields) {
-    if (fields.size() == most_fields_told)
+    if (fields.size() == most_fields_listed)
       break;
     uvol_tools::FactText difference;
     difference << "differs by " << field.mean << " in the mean, " << field.largest
@@ -86,9 +86,9 @@ describe(const SurfaceDistances& distances, const std::string& name, Facts& fact
 void
 warnOfManyFields(const SurfaceDistances& distances, Report& report)
 {
-  if (distances.fields.size() > most_fields_told)
+  if (distances.fields.size() > most_fields_listed)
     report.warn("many_common_fields",
-                {{"fields", distances.fields.size()}, {"told", most_fields_told}});
+                {{"fields", distances.fields.size()}, {"listed", most_fields_listed}});
 }
 
 int

@@ -123,7 +123,7 @@ const MessageText file_error_rows[] = {
      "plane."},
     {"coordinate_below_limit",
      "its coordinate {column} has values below a limit, for example <0.25."},
-    {"whole_numbers_guessed",
+    {"ambiguous_integers",
      "its header names no coordinates, and integers as in '{column}' are ambiguous. "
      "Try: names or numbers of the coordinate columns ({-xyz})."},
     {"no_coordinate_column",

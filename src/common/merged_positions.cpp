@@ -42,7 +42,7 @@ isFinite(const Rounded& position)
 /** Whether a position can be told from its rounded one: two of these that differ are
  * not rounded to the same. */
 bool
-isTold(const Exact& position, const Rounded& rounded, const Exact& origin)
+isExact(const Exact& position, const Rounded& rounded, const Exact& origin)
 {
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (origin[axis] + rounded[axis] != position[axis])
@@ -120,7 +120,7 @@ findMergedPositions(std::size_t count,
   const auto isRounded = [&](std::size_t i) {
     const Exact position = position_at(i);
     const Rounded rounded = roundPosition(position, origin);
-    return isFinite(rounded) && !isTold(position, rounded, origin);
+    return isFinite(rounded) && !isExact(position, rounded, origin);
   };
   std::size_t first_rounded = 0;
   while (first_rounded < count && !isRounded(first_rounded))

@@ -19,7 +19,7 @@ public:
   ProgressReminder(const ProgressCallback& progress, std::string step)
       : progress_(progress)
       , step_(std::move(step))
-      , told_(Clock::now())
+      , reported_at_(Clock::now())
   {
   }
 
@@ -35,9 +35,9 @@ public:
   remind()
   {
     constexpr std::chrono::milliseconds pause(50);
-    if (!progress_ || Clock::now() - told_ < pause)
+    if (!progress_ || Clock::now() - reported_at_ < pause)
       return;
-    told_ = Clock::now();
+    reported_at_ = Clock::now();
     progress_(step_, done_);
   }
 
@@ -47,7 +47,7 @@ private:
   const ProgressCallback& progress_;
   std::string step_;
   double done_ = 0.0;
-  Clock::time_point told_;
+  Clock::time_point reported_at_;
 };
 
 } // namespace pcl_uvol

@@ -114,11 +114,11 @@ StepTimer::advance(std::uint64_t work)
   done_ += work;
   const std::lock_guard<std::mutex> lock(progress_mutex_);
   const std::uint64_t done = std::min<std::uint64_t>(done_, total_); // work done twice
-  if (done == told_ ||
-      (done < total_ &&
-       static_cast<double>(done - told_) < smallest_step * static_cast<double>(total_)))
+  if (done == reported_ ||
+      (done < total_ && static_cast<double>(done - reported_) <
+                            smallest_step * static_cast<double>(total_)))
     return;
-  told_ = done;
+  reported_ = done;
   report_.progress(step_, static_cast<double>(done) / static_cast<double>(total_));
 }
 

@@ -46,7 +46,8 @@ const MessageText warning_rows[] = {
 
     // interpolation
     {"overshoots",
-     "{wild} of the {values} values of {field} exceed the data range by more than its "
+     "{exceeding} of the {values} values of {field} exceed the data range by more than "
+     "its "
      "width. The model overshoots. Try: {-model natural}, which stays within the "
      "range."},
     {"invalid_queries",
@@ -330,7 +331,7 @@ const MessageText warning_rows[] = {
      "{degrees:17}\"} to exclude missing fixes."},
     {"mapped_positions",
      "Positions are mapped around {longitude}, {latitude}: x and y are "
-     "{in_metres|metres|kilometres} to the east and north{tells_z|, z is {z}|}."},
+     "{in_metres|metres|kilometres} to the east and north{gives_z|, z is {z}|}."},
     {"inexact_fields_left_out",
      "{path} omits the {fields|field|fields} {names}: the format has no 64-bit "
      "integers, and double cannot represent {fields|its|their} values. Try: .vtp, .pcd "
@@ -374,7 +375,7 @@ const MessageText warning_rows[] = {
      "{cells} values of '{column}' are below detection limits, for example <0.25. The "
      "limit is used, and '{flag}' is 1 there. Try: {column}*(1-0.5*{flag}) for half "
      "the limit."},
-    {"guessed_coordinates",
+    {"assumed_coordinates",
      "The header does not name x, y and z. The first three columns{skips_times| that "
      "are not times|} ({x}, {y}, {z}) are used. Try: {-xyz} to choose others."},
     {"kept_as_names",

@@ -53,7 +53,7 @@ computeLambda2(const Eigen::Matrix3d& jacobian)
 }
 
 bool
-areKnown(const detail::PointDerivatives* fields, std::size_t count)
+areFinite(const detail::PointDerivatives* fields, std::size_t count)
 {
   return std::all_of(fields, fields + count, [](const detail::PointDerivatives& field) {
     return field.gradient.allFinite();
@@ -119,7 +119,7 @@ deriveColumns(Derivative derivative,
       fields,
       threads,
       [&](std::size_t point, const detail::PointDerivatives* derivatives) {
-        if (!areKnown(derivatives, fields.size())) {
+        if (!areFinite(derivatives, fields.size())) {
           unknown += point < points.own.count;
           return;
         }

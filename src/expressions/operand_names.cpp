@@ -51,7 +51,7 @@ findDigitsEnd(std::string_view text, std::size_t begin)
 
 /** Nothing that belongs to the same operand stands beside it. */
 bool
-standsAlone(std::string_view text, std::size_t begin, std::size_t size)
+isWholeOperand(std::string_view text, std::size_t begin, std::size_t size)
 {
   const std::string_view before = trimmed(text.substr(0, begin));
   const std::string_view after = trimmed(text.substr(begin + size));
@@ -69,7 +69,7 @@ isThere(const std::string& name, std::string_view text, std::size_t begin)
     return false;
   const std::size_t end = begin + name.size();
   if (name.find_first_of("+-*/^<>=!&|?,()[]\"") != std::string::npos)
-    return standsAlone(text, begin, name.size());
+    return isWholeOperand(text, begin, name.size());
   return end == text.size() || !continuesName(text[end]);
 }
 

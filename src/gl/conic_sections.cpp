@@ -39,7 +39,7 @@ findFarthest(const GridShape& shape,
 
 /** The reach of random sites in a grid: hardly a cell is farther from all of them. */
 double
-guessRadius(const GridShape& shape, std::size_t sites)
+estimateRadius(const GridShape& shape, std::size_t sites)
 {
   const std::array<double, 3>& s = shape.spacing;
   const double volume = static_cast<double>(shape.size()) * s[0] * s[1] * s[2];
@@ -68,7 +68,7 @@ drawLayers(const GlFunctions& gl,
   ConePainter painter(gl, shape, sites);
   const std::size_t layer_size = std::size_t{shape.cells[0]} * shape.cells[1];
   const double largest_radius = largestRadius(shape, rings);
-  double radius = guessRadius(shape, sites.size());
+  double radius = estimateRadius(shape, sites.size());
   for (std::uint32_t layer = 0; layer < shape.cells[2]; ++layer) {
     std::uint32_t* const cells = nearest.data() + layer * layer_size;
     const auto draw = [&] {

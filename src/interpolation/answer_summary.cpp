@@ -64,7 +64,7 @@ AnswerSummary::add(const InterpolatedFields& answers)
       field.low = field.count == 0 ? value : std::min(field.low, value);
       field.high = field.count == 0 ? value : std::max(field.high, value);
       ++field.count;
-      field.wild +=
+      field.exceeding +=
           value < field.sample_low - extent || value > field.sample_high + extent;
       field.uncertain +=
           !answers.errors.empty() && answers.getError(f, i) > field.spread;
@@ -77,10 +77,11 @@ AnswerSummary::warn(Report& report) const
 {
   warnOfSupport(report);
   for (const Field& field : fields_)
-    if (field.wild > 0)
-      report.warn(
-          "overshoots",
-          {{"wild", field.wild}, {"values", field.count}, {"field", field.name}});
+    if (field.exceeding > 0)
+      report.warn("overshoots",
+                  {{"exceeding", field.exceeding},
+                   {"values", field.count},
+                   {"field", field.name}});
 }
 
 void

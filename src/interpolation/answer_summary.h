@@ -25,7 +25,7 @@ public:
     double low = 0.0, high = 0.0;
     std::size_t uncertain = 0; ///< values of a standard error above the spread
     double sample_low = 0.0, sample_high = 0.0; ///< range of the samples' values
-    std::size_t wild = 0; ///< values farther beyond that range than it is wide
+    std::size_t exceeding = 0; ///< values farther beyond that range than it is wide
   };
 
   /** \param fields expressions, see ScalarField

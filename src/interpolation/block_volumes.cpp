@@ -78,7 +78,7 @@ struct BlockGrid {
   }
 };
 
-struct KnownBlock {
+struct KrigedBlock {
   Vector3d middle, stretched;
   double mean, deviation;
 };
@@ -107,7 +107,7 @@ struct PartBeyond {
 /** Adds up errors of blocks that are correlated. */
 class ErrorSum {
 public:
-  ErrorSum(const std::vector<KnownBlock>& blocks, const Variogram& variogram)
+  ErrorSum(const std::vector<KrigedBlock>& blocks, const Variogram& variogram)
       : blocks_(blocks)
       , variogram_(variogram)
   {
@@ -145,13 +145,13 @@ private:
     return variogram_.covariance(distance) / variogram_.psill;
   }
 
-  const std::vector<KnownBlock>& blocks_;
+  const std::vector<KrigedBlock>& blocks_;
   const Variogram& variogram_;
 };
 
 /** \param sign -1 where what is below the isovalue is beyond it */
 BlockVolume
-sumUp(const std::vector<KnownBlock>& blocks,
+sumUp(const std::vector<KrigedBlock>& blocks,
       const ErrorSum& errors,
       double isovalue,
       double sign,
@@ -160,7 +160,7 @@ sumUp(const std::vector<KnownBlock>& blocks,
   std::vector<PartBeyond> parts;
   double volume = 0.0, excess = 0.0;
   Vector3d moment = Vector3d::Zero();
-  for (const KnownBlock& block : blocks) {
+  for (const KrigedBlock& block : blocks) {
     parts.emplace_back(sign * (block.mean - isovalue), block.deviation);
     volume += parts.back().probability;
     excess += parts.back().first;
@@ -222,7 +222,7 @@ estimateBlockVolumes(const CloudView& samples,
 
   BlockVolumes found;
   found.blocks = grid.counts;
-  std::vector<KnownBlock> blocks;
+  std::vector<KrigedBlock> blocks;
   for (std::size_t begin = 0; begin < grid.size(); begin += lattice_block) {
     std::vector<std::array<double, 3>> middles;
     for (std::size_t i = begin; i < std::min(begin + lattice_block, grid.size()); ++i)

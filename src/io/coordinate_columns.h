@@ -54,7 +54,7 @@ std::optional<CoordinateColumns>
 recognizeCoordinates(const std::vector<std::string>& names, bool on_map = false);
 
 /** \brief The first name that has an axis of any of these systems, or is a component of
- * another quantity, as x_vel: then coordinates are not guessed. The letters e and n
+ * another quantity, as x_vel: then no coordinates are assumed. The letters e and n
  * count only together, as columns of other quantities are called so as well.
  *
  * \return nothing if there is none */

@@ -232,7 +232,7 @@ describeMap(const MapProjection& map, const std::string& z)
           {{"longitude", degreeWords(map.longitude, "EW")},
            {"latitude", degreeWords(map.latitude, "NS")},
            {"in_metres", map.per_kilometre > 1.0},
-           {"tells_z", !z.empty()},
+           {"gives_z", !z.empty()},
            {"z", z}}};
 }
 

@@ -18,7 +18,7 @@ constexpr std::uint64_t mark_spacing = 1u << 14;
 /** Records that are handled again while they are in the cache. */
 constexpr std::size_t cached_bytes = std::size_t(1) << 18;
 /** Records between two looks at the progress: text takes milliseconds. */
-constexpr std::size_t told_records = 1u << 14;
+constexpr std::size_t records_per_report = 1u << 14;
 
 void
 swapRecords(const Fields& fields, std::size_t step, std::uint8_t* at, std::size_t count)
@@ -183,7 +183,7 @@ readInParts(Source& source,
   StepTimer step(report, "read", count);
   std::size_t done = 0;
   do { // at the end, too, where sources look at what follows
-    const std::size_t now = std::min(told_records, count - done);
+    const std::size_t now = std::min(records_per_report, count - done);
     source.read(now, cloud.data.data() + done * cloud.point_step);
     done += now;
     step.advance(now);

@@ -21,7 +21,7 @@ namespace {
 
 using Type = pcl::PCLPointField;
 
-constexpr std::size_t told_rows = 1u << 14; ///< between two looks at the progress
+constexpr std::size_t rows_per_report = 1u << 14; ///< between two looks at the progress
 
 /** A table whose header was read. */
 class TextTable {
@@ -60,7 +60,7 @@ private:
   void
   keepDegrees(std::array<std::size_t, 3>& coordinates);
   void
-  checkGuess() const;
+  checkAssumed() const;
   void
   addFlags(bool keep);
   void
@@ -78,8 +78,8 @@ private:
   bool has_header_ = true;
   bool has_coordinates_;
   bool is_global_ = false;             ///< x and y are degrees, to be put on a map
-  bool are_guessed_ = false;           ///< the coordinates, in spite of a header
-  std::array<std::string, 3> guessed_; ///< their names
+  bool are_assumed_ = false;           ///< the coordinates, in spite of a header
+  std::array<std::string, 3> assumed_; ///< their names
   CoordinateRange range_;
   std::optional<NormalColumns> normals_;
   std::uint64_t count_ = 0;
@@ -176,19 +176,19 @@ TextTable::findCoordinates()
     throwUnreadable(path_, {"few_columns", columns_.size()});
   if (const auto named = findPossibleCoordinate(names))
     throwUnreadable(path_, {"some_coordinates_named", shortenText(*named)});
-  std::vector<std::size_t> guess;
-  for (std::size_t i = 0; i < names.size() && guess.size() < 3; ++i)
+  std::vector<std::size_t> chosen;
+  for (std::size_t i = 0; i < names.size() && chosen.size() < 3; ++i)
     if (!saysTime(names[i]))
-      guess.push_back(i);
-  if (guess.size() < 3)
+      chosen.push_back(i);
+  if (chosen.size() < 3)
     throwUnreadable(path_, "only_times_named");
-  are_guessed_ = has_header_;
-  notes_.push_back({"guessed_coordinates",
-                    {{"skips_times", guess[2] > 2},
-                     {"x", shortenText(names[guess[0]])},
-                     {"y", shortenText(names[guess[1]])},
-                     {"z", shortenText(names[guess[2]])}}});
-  return {{guess[0], guess[1], guess[2]}};
+  are_assumed_ = has_header_;
+  notes_.push_back({"assumed_coordinates",
+                    {{"skips_times", chosen[2] > 2},
+                     {"x", shortenText(names[chosen[0]])},
+                     {"y", shortenText(names[chosen[1]])},
+                     {"z", shortenText(names[chosen[2]])}}});
+  return {{chosen[0], chosen[1], chosen[2]}};
 }
 
 bool
@@ -211,13 +211,13 @@ TextTable::isXyz() const
 
 /** Whole numbers are labels or indices as often as coordinates. */
 void
-TextTable::checkGuess() const
+TextTable::checkAssumed() const
 {
-  if (!are_guessed_)
+  if (!are_assumed_)
     return;
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (columns_[axis].integers && columns_[axis].numbers > 0)
-      throwUnreadable(path_, {"whole_numbers_guessed", shortenText(guessed_[axis])});
+      throwUnreadable(path_, {"ambiguous_integers", shortenText(assumed_[axis])});
 }
 
 /** Keeps longitude, latitude and the vertical as fields: coordinates are copies, which
@@ -248,7 +248,7 @@ TextTable::orderColumns()
   std::vector<TextColumn> ordered;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     ordered.push_back(std::move(columns_[coordinates[axis]]));
-    guessed_[axis] = ordered.back().name;
+    assumed_[axis] = ordered.back().name;
     ordered.back().name = std::string(1, static_cast<char>('x' + axis));
   }
   for (std::size_t i = 0; i < columns_.size(); ++i) {
@@ -274,7 +274,7 @@ TextTable::scan(bool keep)
   std::vector<double> row(columns_.size());
   normals_.emplace(columns_);
   for (; rows_.next(cells); ++count_) {
-    if (count_ % told_rows == 0) {
+    if (count_ % rows_per_report == 0) {
       step.advance(left - cursor_->left());
       left = cursor_->left();
     }
@@ -402,7 +402,7 @@ addNames(const TextColumn& column, RecordInfo& info)
 RecordInfo
 TextTable::describe()
 {
-  checkGuess();
+  checkAssumed();
   addFlags(!columns_.empty() && !columns_.front().values.empty());
   lookAgain();
   for (const TextColumn& column : columns_)

@@ -23,7 +23,7 @@ constexpr std::size_t deciding_samples = 8;
 /** Share of the distance between the two samples of an edge. An isopoint with a smaller
  * error is known from its fit, as an automatic largest error says as well, and on one
  * side of a curved or noisy surface 8 samples may lie by chance. */
-constexpr float known_part = 0.5f;
+constexpr float precise_part = 0.5f;
 
 } // namespace
 
@@ -38,7 +38,7 @@ bool
 OneSidedTest::contradicts(const PointIso& point, const IsoEdge& edge, float& reach)
 {
   if (point.support != static_cast<std::uint8_t>(IsoSupport::Bridged) ||
-      point.error <= known_part * point.edge_length)
+      point.error <= precise_part * point.edge_length)
     return false;
   const Position &a = input_.samples.getPositions()[edge.first],
                  &b = input_.samples.getPositions()[edge.second];

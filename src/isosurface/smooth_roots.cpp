@@ -251,7 +251,7 @@ private:
   {
     return metrics.getPoolSize() > fitted_samples &&
            nearest_.isEmpty(
-               center, metrics.getMetric(), wide_gap * metrics.findCrowd(center));
+               center, metrics.getMetric(), wide_gap * metrics.findPoolRadius(center));
   }
 
   void
@@ -395,9 +395,9 @@ private:
                   Surroundings& surroundings)
   {
     const Eigen::Matrix3d& metric = metrics.getMetric();
-    const double crowd = metrics.getPoolSize() > fitted_samples
-                             ? metrics.findCrowd(center)
-                             : std::numeric_limits<double>::infinity();
+    const double pool_radius = metrics.getPoolSize() > fitted_samples
+                                   ? metrics.findPoolRadius(center)
+                                   : std::numeric_limits<double>::infinity();
     const auto image = [&](std::uint32_t sample, const Position& origin) {
       const Position& x = input_.samples.getPositions()[sample];
       Eigen::Vector3d offset;
@@ -409,7 +409,7 @@ private:
     surroundings.edge_length =
         image(edge.second, input_.samples.getPositions()[edge.first]).norm();
     const std::vector<std::uint32_t>& neighbors =
-        nearest_.find(center, metric, crowd * crowd);
+        nearest_.find(center, metric, pool_radius * pool_radius);
     double sq_nearest = std::numeric_limits<double>::infinity(), sq_farthest = 0.0;
     for (std::size_t j = 0; j < neighbors.size(); ++j) {
       const Eigen::Vector3d u = image(neighbors[j], center);

@@ -40,7 +40,7 @@ settleValue(float own, std::vector<float>& others, const SpikeBounds& limits)
 }
 
 bool
-SpikeTest::standsOut(float own) const
+SpikeTest::isOutlier(float own) const
 {
   std::vector<float> others = others_;
   const float median = settleValue(own, others, bounds);
@@ -66,7 +66,7 @@ SpikeTest::isSpike(std::uint32_t sample)
     others_.push_back(input_.values[neighbor]);
     alike += (others_.back() >= isovalue_) == (own >= isovalue_);
   }
-  return others_.size() >= least_neighbors && alike <= most_alike && standsOut(own);
+  return others_.size() >= least_neighbors && alike <= most_alike && isOutlier(own);
 }
 
 void

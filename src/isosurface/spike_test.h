@@ -47,7 +47,7 @@ public:
 
 private:
   bool
-  standsOut(float own) const;
+  isOutlier(float own) const;
 
   const IsopointInput& input_;
   float isovalue_;

@@ -25,7 +25,7 @@ struct LevelSetConstants {
 
   /** Spikes, as a share of the samples next to the surface, that are worth a warning:
    * Gaussian noise makes one in 10,000. */
-  double told_outliers = 0.001;
+  double warned_outliers = 0.001;
 
   /** Samples that tell whether logarithms lie nearer to quadratics, at most: the median
    * over so many is known to 4 %. */

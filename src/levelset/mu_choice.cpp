@@ -323,12 +323,12 @@ private:
   void
   correctNoise()
   {
-    const double told = last_.noiseVariance();
+    const double noise = last_.noiseVariance();
     const bool is_none = last_.risk(variance_) <= level_set.least_risk * variance_;
     if (is_none &&
-        std::abs(told - told_before_) < level_set.same_variance * told_before_)
-      variance_ = std::min(variance_, told);
-    told_before_ = told;
+        std::abs(noise - noise_before_) < level_set.same_variance * noise_before_)
+      variance_ = std::min(variance_, noise);
+    noise_before_ = noise;
   }
 
   Residuals
@@ -359,7 +359,7 @@ private:
   std::vector<FitWeights> fits_, wide_fits_; ///< that look, and that tell shares
   std::vector<MuStage> stages_;              ///< all that were tried
   double variance_;                          ///< of the noise
-  double told_before_ = 0.0;                 ///< that by what the weight before removed
+  double noise_before_ = 0.0;                ///< that by what the weight before removed
   Residuals last_{};
   std::optional<Residuals> best_;
   double best_time_ = 0.0;

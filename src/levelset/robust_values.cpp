@@ -86,7 +86,7 @@ tameValues(const SampleSet& samples,
   const auto spikes = findSpikes(samples, f, crossing, k, threads);
   const bool had_spikes =
       static_cast<double>(spikes.size()) >
-      level_set.told_outliers * static_cast<double>(crossing.size());
+      level_set.warned_outliers * static_cast<double>(crossing.size());
   report.count("outliers", spikes.size());
   if (had_spikes)
     report.warn("outliers",

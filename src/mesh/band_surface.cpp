@@ -153,9 +153,9 @@ private:
     return euler;
   }
 
-  /** Cells whose side makes a crumb or a handle where the field, by the fits, has none:
-   * a few of the tetrahedra between the centres of cells are turned inside out. Of
-   * those that touch one another only the one nearest to the surface. */
+  /** Cells whose side makes a small component or a handle where the field, by the fits,
+   * has none: a few of the tetrahedra between the centres of cells are turned inside
+   * out. Of those that touch one another only the one nearest to the surface. */
   std::vector<std::uint32_t>
   findWrongCells(const WorkingMesh& mesh) const
   {
@@ -165,9 +165,9 @@ private:
     for (const std::uint32_t cell : values_.getBand()) {
       const std::uint32_t place = values_.placeOf(cell);
       const bool was_turned = !is_turned_.empty() && is_turned_[cell];
-      // The whole surroundings of a crumb are on the other side: a sphere.
+      // The whole surroundings of an isolated cell are on the other side: a sphere.
       if ((euler[place] == 0 || euler[place] == 2) && is_smooth[place] && !was_turned &&
-          isCrumbOrHandle(cell))
+          isIsolatedOrHandle(cell))
         wrong.emplace_back(
             (values_.getCell(cell).foot - values_.getCell(cell).center).norm(), cell);
     }
@@ -203,7 +203,7 @@ private:
   /** True for a cell that touches none of its own side, but others; and for one that
    * touches several groups of its own side, which others nearby join as well. */
   bool
-  isCrumbOrHandle(std::uint32_t cell) const
+  isIsolatedOrHandle(std::uint32_t cell) const
   {
     std::vector<std::uint32_t> touching, own;
     input_.candidates.find(cell, touching);

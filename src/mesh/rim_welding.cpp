@@ -341,18 +341,18 @@ private:
   {
     for (const auto& [from, run] : runs_) {
       std::vector<std::pair<double, std::uint32_t>> splits;
-      bool is_crowded = false;
+      bool is_too_dense = false;
       double last = 0.0;
       for (const std::uint32_t high : run) {
         if (image_of_.count(high) > 0)
           continue;
         const double t = places_.at(high).t;
-        is_crowded = is_crowded || t - last < least_share;
+        is_too_dense = is_too_dense || t - last < least_share;
         splits.emplace_back(last = t, high);
       }
       if (splits.empty())
         continue;
-      if (is_crowded || 1.0 - last < least_share)
+      if (is_too_dense || 1.0 - last < least_share)
         for (std::size_t i = 0; i < splits.size(); ++i)
           splits[i].first =
               static_cast<double>(i + 1) / static_cast<double>(splits.size() + 1);

@@ -129,7 +129,7 @@ LocalMetricFinder::reaches(const Position& point) const
 }
 
 double
-LocalMetricFinder::findCrowd(const Position& point) const
+LocalMetricFinder::findPoolRadius(const Position& point) const
 {
   const Eigen::Vector3d offset = between(samples_.getPositions()[last_], point);
   double sq_farthest = 0.0;
@@ -343,8 +343,8 @@ LocalMetricFinder::refine(std::uint32_t sample,
     last_ = sample;
     metric_ = nearby.metric_;
     searched_.clear();
-    const double crowd = nearby.findCrowd(samples_.getPositions()[sample]);
-    double ratio = lookInMetric(sample, crowd * crowd, false);
+    const double pool_radius = nearby.findPoolRadius(samples_.getPositions()[sample]);
+    double ratio = lookInMetric(sample, pool_radius * pool_radius, false);
     for (int round = 2;
          round < most_rounds && ratio >= even_ratio && std::isfinite(ratio);
          ++round)

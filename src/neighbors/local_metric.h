@@ -96,7 +96,7 @@ public:
   /** \brief A distance in the metric from a point within which at least
    * getPoolSize() samples lie. */
   double
-  findCrowd(const Position& point) const;
+  findPoolRadius(const Position& point) const;
 
   std::size_t
   getPoolSize() const
@@ -134,7 +134,7 @@ private:
    * among them. */
   static constexpr std::size_t pool = 41;
 
-  /** Look at the nearest samples of one, which makes a first guess.
+  /** Look at the nearest samples of one, which makes a first estimate.
    * \return whether there are samples on all sides of it */
   bool
   lookAround(std::uint32_t sample);

@@ -20,9 +20,9 @@ constexpr float usual_room = 1.2f;
 constexpr float shared_extent = 4.0f;
 /** Samples that a copy may hold, at least, and per neighbour: where density changes
  * that much, each point is searched for on its own. */
-constexpr std::size_t least_crowd = 2000, crowd_per_neighbor = 100;
-/** Guesses of a limit between two distances by the growth of volumes. */
-constexpr int most_guesses = 8;
+constexpr std::size_t least_copied = 2000, copied_per_neighbor = 100;
+/** Trials of a limit between two distances by the growth of volumes. */
+constexpr int most_trials = 8;
 /** Room for the rounding of a squared distance. */
 constexpr float reach_slack = 1.0001f;
 
@@ -129,7 +129,7 @@ NearestFinder::copyBelow(const KdTree& tree, const KdNode& node)
   if (!KdTree::isBucket(node))
     return copyBelow(tree, node.left()) && copyBelow(tree, node.right());
   appendNear(node.begin, node.begin + node.count);
-  return copied_count_ <= std::max(least_crowd, crowd_per_neighbor * k_);
+  return copied_count_ <= std::max(least_copied, copied_per_neighbor * k_);
 }
 
 void
@@ -206,7 +206,7 @@ NearestFinder::selectFromCopy(const Position& point)
 float
 NearestFinder::limitOfNearest()
 {
-  // Counting is cheap and the number grows as the volume, so a few guesses find a limit
+  // Counting is cheap and the number grows as the volume, so a few trials find a limit
   // between the k-th and the next distance; where distances are nearly equal, halving
   // does, and ends at the k-th distance itself if others equal it.
   constexpr float smallest = std::numeric_limits<float>::min(),
@@ -214,7 +214,7 @@ NearestFinder::limitOfNearest()
   float low = -1.0f, high = infinity<float>;
   float limit = std::clamp(reach_ * reach_, smallest, largest);
   const auto wanted = static_cast<float>(k_);
-  for (int guess = 0;; ++guess) {
+  for (int trial = 0;; ++trial) {
     const std::size_t count =
         kernels_->countWithin(sq_dist_.data(), copied_count_, limit);
     if (count == k_)
@@ -223,7 +223,7 @@ NearestFinder::limitOfNearest()
     const float growth =
         std::cbrt((wanted + 0.5f) / (static_cast<float>(count) + 0.5f));
     limit *= growth * growth;
-    if (guess < most_guesses && limit > low && limit < high)
+    if (trial < most_trials && limit > low && limit < high)
       continue;
     if (high == infinity<float>)
       limit = std::min(2.0f * low, largest);
@@ -329,7 +329,7 @@ NearestFinder::isEmpty(const KdBox& point,
 }
 
 float
-NearestFinder::sqCrowd(const Position& point, std::uint32_t sample)
+NearestFinder::sqSearchRadius(const Position& point, std::uint32_t sample)
 {
   // Samples that follow one another in the tree lie close together.
   const std::size_t middle = sample - std::min<std::size_t>(sample, k_ / 2);
@@ -352,7 +352,8 @@ NearestFinder::findGap(const Position& point,
 {
   if (samples_.size() < k_)
     return 0.0f;
-  const float sq_farthest = std::min(sqCrowd(point, first), sqCrowd(point, second));
+  const float sq_farthest =
+      std::min(sqSearchRadius(point, first), sqSearchRadius(point, second));
   const auto& trees = samples_.getTrees();
   const bool is_empty =
       std::all_of(trees.begin(), trees.end(), [&](const KdTree& tree) {
@@ -384,8 +385,8 @@ NearestFinder::find(const Position& point, float length)
   const bool has_copy = copy_ == Copy::Usual || copy_ == Copy::Enough;
   if (!has_copy || !selectFromCopy(point)) {
     search(point, infinity<float>);
-    if (copy_ != Copy::Crowded)
-      copy_ = copyForOthers() ? Copy::Enough : Copy::Crowded;
+    if (copy_ != Copy::NotPossible)
+      copy_ = copyForOthers() ? Copy::Enough : Copy::NotPossible;
   }
   reach_ = std::sqrt(
       *std::max_element(found_sq_dist_.data(), found_sq_dist_.data() + found_count_));

@@ -70,11 +70,11 @@ private:
 
   /** What the points of a group share. */
   enum class Copy {
-    None,     ///< not tried
-    Usual,    ///< samples within a distance that is mostly enough
-    TooLarge, ///< they are too many
-    Enough,   ///< all samples that one of the points needs
-    Crowded   ///< these are too many as well: each point is searched for on its own
+    None,       ///< not tried
+    Usual,      ///< samples within a distance that is mostly enough
+    TooLarge,   ///< they are too many
+    Enough,     ///< all samples that one of the points needs
+    NotPossible ///< these are too many as well: each point has its own search
   };
 
   void
@@ -126,7 +126,7 @@ private:
 
   /** Squared distance that k samples do not exceed: those around one in the tree. */
   float
-  sqCrowd(const Position& point, std::uint32_t sample);
+  sqSearchRadius(const Position& point, std::uint32_t sample);
 
   /** Whether no sample below a node lies within a squared distance of a point. */
   bool

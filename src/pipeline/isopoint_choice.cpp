@@ -143,7 +143,7 @@ private:
   SampleSet::ConstPtr places_;
 };
 
-/** Whether an isopoint may be a guess, by itself and its edge alone. */
+/** Whether an isopoint may be unconstrained, by itself and its edge alone. */
 bool
 isUncertain(const StretchedEdges& edges, std::size_t i, const PointIso& point)
 {

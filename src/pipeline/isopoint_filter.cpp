@@ -130,7 +130,7 @@ findUnlocated(const pcl::PointCloud<PointIso>& isopoints,
 
 /** Share of the samples next to the surface that are spikes: of 1 % of all samples it
  * is 3 %. */
-constexpr double told_spikes = 0.001;
+constexpr double warned_spikes = 0.001;
 
 /** What a surface has lost, on all processes together. */
 struct SurfaceLosses {
@@ -165,7 +165,7 @@ warnOfSpikes(const SurfaceTally& tally, Report& report)
 {
   const auto spikes = static_cast<double>(tally.spikes),
              crossing = static_cast<double>(tally.crossing);
-  if (spikes > told_spikes * crossing)
+  if (spikes > warned_spikes * crossing)
     report.warn("spikes", {{"percent", 100.0 * spikes / crossing}});
 }
 
@@ -276,16 +276,17 @@ warnOfWeakSupport(const SupportCounts& counts,
                   const std::optional<SamplingSummary>& sampling,
                   Report& report)
 {
-  Message guess("unconstrained_isopoints", listRemedies(parameters));
-  guess.values.emplace_back("validate", parameters.validation.folds == 0);
-  guess.values.emplace_back("bridged", !parameters.drop_bridged && !parameters.mesh);
-  if (const auto told = role == SurfaceRole::ClusterBorder
-                            ? describeWeakBorder(counts)
-                            : describeWeakSupport(counts,
-                                                  sampling,
-                                                  std::move(guess),
-                                                  !(parameters.periodic > 0.0).all()))
-    report.warn({*told});
+  Message message("unconstrained_isopoints", listRemedies(parameters));
+  message.values.emplace_back("validate", parameters.validation.folds == 0);
+  message.values.emplace_back("bridged", !parameters.drop_bridged && !parameters.mesh);
+  if (const auto warning =
+          role == SurfaceRole::ClusterBorder
+              ? describeWeakBorder(counts)
+              : describeWeakSupport(counts,
+                                    sampling,
+                                    std::move(message),
+                                    !(parameters.periodic > 0.0).all()))
+    report.warn({*warning});
   if (4 * counts.thin > counts.known)
     report.warn("thin_parts", {{"percent", 100 * counts.thin / counts.known}});
 }

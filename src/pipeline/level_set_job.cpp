@@ -76,11 +76,11 @@ runLevelSet(const std::shared_ptr<const Dataset>& samples,
   result.summary = evolution.getSummary();
   result.sampling = *evolution.getSampling();
   if (!result.box) // most of what is examined there may be images
-    if (const auto guesses =
+    if (const auto warning =
             describeWeakSupport(findSupportCounts(evolution.getTally()),
                                 result.sampling,
                                 {"unconstrained_level_set", {}}))
-      result.report.warn({*guesses});
+      result.report.warn({*warning});
   result.report.progress = nullptr; // which is the caller's
   return result;
 }

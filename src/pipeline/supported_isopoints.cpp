@@ -23,7 +23,7 @@ namespace {
  * more of the isopoints, of noisy ones after a level set 93 %; between lines of
  * samples what deviates little from those around: 19 % on the drill holes. A quarter
  * leaves 56 % of the smoothed ones, and the whole edge keeps nearly everything. */
-constexpr float known_part = 0.5f;
+constexpr float precise_part = 0.5f;
 
 /** Rounding of lengths that are parts of another. */
 constexpr float rounding = 1e-5f;
@@ -146,7 +146,7 @@ errorOnEdge(const PointIso& point, const IsoEdge& edge)
 bool
 isKnown(const PointIso& point)
 {
-  return point.error <= known_part * point.edge_length;
+  return point.error <= precise_part * point.edge_length;
 }
 
 SupportedIsopoints::SupportedIsopoints(const CloudView& samples,

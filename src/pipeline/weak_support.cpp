@@ -27,7 +27,7 @@ add(const PointIso& point,
   else if (support == IsoSupport::Bridged && has_good_fit)
     ++counts.beside_gaps;
   else
-    counts.guessed += is_bisector || support == IsoSupport::Bridged;
+    counts.unconstrained += is_bisector || support == IsoSupport::Bridged;
 }
 
 Message
@@ -66,7 +66,7 @@ findSupportCounts(const SurfaceTally& tally)
   SupportCounts counts;
   counts.known = tally.examined;
   counts.beside_gaps = tally.examined_rim;
-  counts.guessed = tally.examined_bridged;
+  counts.unconstrained = tally.examined_bridged;
   return counts;
 }
 
@@ -74,7 +74,7 @@ SupportCounts
 addTogether(const SupportCounts& own, Communicator& communicator)
 {
   std::vector<std::uint64_t> counts{
-      own.known, own.at_border, own.beside_gaps, own.guessed, own.thin};
+      own.known, own.at_border, own.beside_gaps, own.unconstrained, own.thin};
   communicator.allReduce(counts);
   return {counts[0], counts[1], counts[2], counts[3], counts[4]};
 }
@@ -82,26 +82,26 @@ addTogether(const SupportCounts& own, Communicator& communicator)
 std::optional<Message>
 describeWeakSupport(const SupportCounts& counts,
                     const std::optional<SamplingSummary>& sampling,
-                    Message guess,
+                    Message message,
                     bool have_border)
 {
   const bool lie_all_around = sampling && sampling->most == LocalDimension::Volume;
   const std::size_t at_border =
                         counts.at_border + (lie_all_around ? counts.beside_gaps : 0),
-                    all = counts.at_border + counts.beside_gaps + counts.guessed;
+                    all = counts.at_border + counts.beside_gaps + counts.unconstrained;
   if (have_border && 2 * at_border > counts.known)
     return withPercent({"isopoints_at_border", {}}, at_border, counts.known);
   if (2 * all <= counts.known)
     return std::nullopt;
-  if (have_border && lie_all_around && at_border > counts.guessed)
-    guess = {"isopoints_beside_samples", {}};
-  return withPercent(std::move(guess), all, counts.known);
+  if (have_border && lie_all_around && at_border > counts.unconstrained)
+    message = {"isopoints_beside_samples", {}};
+  return withPercent(std::move(message), all, counts.known);
 }
 
 std::optional<Message>
 describeWeakBorder(const SupportCounts& counts)
 {
-  const std::size_t all = counts.at_border + counts.beside_gaps + counts.guessed;
+  const std::size_t all = counts.at_border + counts.beside_gaps + counts.unconstrained;
   if (2 * all <= counts.known)
     return std::nullopt;
   return withPercent({"unconstrained_border", {}}, all, counts.known);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What most of a surface rests on: samples around it, their border, or a guess between
+// What most of a surface rests on: samples around it, their border, or nothing between
 // lines of samples.
 #pragma once
 
@@ -17,7 +17,7 @@
 
 namespace pcl_uvol {
 
-/** \brief What a surface stands for, and is said of it where it is a guess. */
+/** \brief What a surface stands for, and is said of it where it is not constrained. */
 enum class SurfaceRole {
   Isosurface,
   ClusterBorder ///< between the samples of a cluster and the others
@@ -30,8 +30,9 @@ struct SupportCounts {
   /** On other rims, or in gaps that good fits bridge: where samples lie all around, at
    * their border. */
   std::size_t beside_gaps = 0;
-  std::size_t guessed = 0; ///< bridged otherwise, or oriented across a line of samples
-  std::size_t thin = 0;    ///< of all of these: see findThinParts()
+  std::size_t unconstrained =
+      0;                ///< bridged otherwise, or oriented across a line of samples
+  std::size_t thin = 0; ///< of all of these: see findThinParts()
 };
 
 /** \brief What isopoints rest on.
@@ -57,13 +58,13 @@ addTogether(const SupportCounts& own, Communicator& communicator);
 
 /** \brief A message where most isopoints do not rest on samples around them; else none.
  * \param sampling where samples lie all around, rims are the border of these
- * \param guess the message where the surface is a guess, all but its "percent"
- * \param have_border false of samples in a box that repeats along all axes: their rims
- * are gaps */
+ * \param message what to say of a surface that is not constrained, less the "percent"
+ * \param have_border false of samples in a box that repeats along all axes:
+ * their rims are gaps */
 PCL_UVOL_EXPORTS std::optional<Message>
 describeWeakSupport(const SupportCounts& counts,
                     const std::optional<SamplingSummary>& sampling,
-                    Message guess,
+                    Message message,
                     bool have_border = true);
 
 /** \brief The same of the border of a cluster, which lies somewhere between its samples

@@ -122,7 +122,7 @@ TEST(ColorBar, BreaksALongTitle)
     }
 }
 
-TEST(AxisLabels, TellValuesApart)
+TEST(AxisLabels, DistinguishValues)
 {
   using uvol_tools::labelValues;
   using Texts = std::vector<std::string>;
@@ -175,7 +175,7 @@ TEST(ColorBar, WritesDecadesBesideALogarithmicScale)
   EXPECT_NE(makePlain(400, 300, 255).color, image.color);
 }
 
-TEST(ColorBar, TellsValuesOfANarrowLogarithmicScaleApart)
+TEST(ColorBar, DistinguishesValuesOfANarrowLogarithmicScale)
 {
   using Texts = std::vector<std::string>;
   const auto labelsOf = [](double low, double high) {

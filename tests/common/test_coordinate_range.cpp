@@ -108,7 +108,7 @@ TEST(CoordinateRange, AnyOrderAndDivisionGiveOneOrigin)
   EXPECT_EQ(note, parts[0].describeRounding(expected));
 }
 
-TEST(CoordinateRange, ClustersFarApartAreTold)
+TEST(CoordinateRange, ClustersFarApartAreReported)
 {
   Points points = makeSite(20000, {0.0, 0.0, 0.0});
   const Points others = makeSite(20000, {1e10, 0.0, 0.0});
@@ -139,7 +139,7 @@ TEST(CoordinateRange, SpacingsOnALineAreThoseOfALine)
   EXPECT_FALSE(noteOf(volume));
 }
 
-TEST(CoordinateRange, WhatFloatCannotHoldIsRefusedUnlessItIsAStray)
+TEST(CoordinateRange, WhatFloatCannotHoldIsRefusedUnlessItIsAnOutlier)
 {
   Points points = makeSite(100, {0.0, 0.0, 0.0});
   points[3][0] = 1e300;

@@ -152,7 +152,7 @@ TEST(Memory, PeakIsTheMostThatWasResident)
   EXPECT_LT(pcl_uvol::residentMemory(), before + bytes / 10);
 }
 
-TEST(Memory, BytesAreTold)
+TEST(Memory, BytesAreDescribed)
 {
   EXPECT_EQ("0 bytes", formatBytes(0.0));
   EXPECT_EQ("17 bytes", formatBytes(17.0));
@@ -166,7 +166,7 @@ TEST(Memory, BytesAreTold)
 }
 
 /** Just below a power of ten, where rounding makes one digit more. */
-TEST(Memory, BytesAreToldWithoutExponents)
+TEST(Memory, BytesAreDescribedWithoutExponents)
 {
   EXPECT_EQ("1 kB", formatBytes(999.6));
   EXPECT_EQ("1 MB", formatBytes(999.7e3));

@@ -140,7 +140,7 @@ TEST(Message, ValuesOfParametersHoldValues)
 
 TEST(Message, ListWhatMayBeTried)
 {
-  const std::string guess =
+  const std::string weak =
       "40 % of isopoints are between sample lines or next to gaps. Only crossings with "
       "lines are reliable. Try: ";
   for (const bool validate : {false, true})
@@ -157,7 +157,7 @@ TEST(Message, ListWhatMayBeTried)
                                   const std::string& factors,
                                   const std::string& filling,
                                   const std::string& dropping) {
-          return guess + (validate ? test + ", " : "") + (scale ? factors + ", " : "") +
+          return weak + (validate ? test + ", " : "") + (scale ? factors + ", " : "") +
                  (gaps ? filling : dropping) + ", more samples.";
         };
         EXPECT_EQ(expected("validate", "scale", "fill_gaps", "drop_bridged"),

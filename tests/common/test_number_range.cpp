@@ -12,7 +12,7 @@ using namespace pcl_uvol;
 
 using Texts = std::vector<std::string>;
 
-TEST(DescribeNumbers, GivesSixDigitsWhereTheyTellNumbersApart)
+TEST(DescribeNumbers, GivesSixDigitsWhereTheyDistinguishNumbers)
 {
   EXPECT_EQ(describeNumbers({1.0 / 3.0}), (Texts{"0.333333"}));
   EXPECT_EQ(describeNumbers({0.1, 0.25, 1e6}), (Texts{"0.1", "0.25", "1e+06"}));

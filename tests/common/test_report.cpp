@@ -28,7 +28,7 @@ TEST(Report, CountsSamplesOfSeveralStagesOnce)
   EXPECT_EQ(14u, report.getCount("isopoints"));
 }
 
-TEST(Progress, RisesToOneAndIsToldOneAtATime)
+TEST(Progress, RisesToOneAndIsReportedOneAtATime)
 {
   pcl_uvol::Report report;
   std::vector<double> told;

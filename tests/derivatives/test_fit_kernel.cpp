@@ -355,7 +355,7 @@ TEST(FitKernel, FourthPowersAreWhatCubicsMiss)
 
 /** On two spheres about the centre the fourth power is a sum of a constant and the
  * square of the distance, which quadratics have. */
-TEST(FitKernel, BiasIsZeroWhereSamplesDoNotTellIt)
+TEST(FitKernel, BiasIsZeroWhereSamplesDoNotDetermineIt)
 {
   Places places;
   Samples s(40);

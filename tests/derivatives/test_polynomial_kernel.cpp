@@ -194,7 +194,7 @@ TEST(PolynomialKernel, StepsGetALinearFit)
   });
 }
 
-TEST(PolynomialKernel, SaysWhereSamplesTellNothing)
+TEST(PolynomialKernel, SaysWhereSamplesDoNotDetermineIt)
 {
   const auto value = [](std::size_t, double x, double y, double) { return x + y; };
   const Samples s = randomSamples(1, value, true); // on a plane

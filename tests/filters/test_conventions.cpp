@@ -194,7 +194,7 @@ TEST_P(Convention, AbortInMidRun)
   EXPECT_GT(filter_->GetOutput()->GetNumberOfPoints(), 100);
 }
 
-TEST_P(Convention, ProgressGrowsAndIsToldFromTheCallersThread)
+TEST_P(Convention, ProgressGrowsAndIsReportedFromTheCallersThread)
 {
   const auto caller = std::this_thread::get_id();
   bool only_there = true;

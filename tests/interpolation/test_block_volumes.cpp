@@ -181,7 +181,7 @@ TEST(BlockVolumes, TheSameForAnyOrderUnitShiftAndThreads)
   EXPECT_NEAR(1024.0 * (all.centroid[0] + 1.0), scaled.isovalues[0].centroid[0], 0.1);
 }
 
-TEST(BlockVolumes, RefuseWhatTheyCannotTell)
+TEST(BlockVolumes, RefuseWhatTheyCannotEstimate)
 {
   const auto samples = makeSamples(waves, 50, 1);
   EXPECT_THROW(estimate(samples, {0.3}, 0.0f), InvalidArgument);

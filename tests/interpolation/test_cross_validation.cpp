@@ -130,7 +130,7 @@ TEST(CrossValidation, WarnsWhereNoHeldOutSampleHasAValue)
   EXPECT_EQ(160u, test(Folds::byField(view, "f1", 4)));
 }
 
-TEST(CrossValidation, TellsGoodModelsFromBadOnes)
+TEST(CrossValidation, DistinguishesGoodModelsFromBadOnes)
 {
   const auto cloud = sampleFunctions(
       randomPlaces(3000, 3), {franke, [](const Vector3d& x) { return 2.0 + x[0]; }});

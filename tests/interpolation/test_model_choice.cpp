@@ -233,10 +233,10 @@ TEST(AnswerSummary, WarnsOnceWhereMostIsUncertain)
   wild[4] = -1.01;
   wild[5] = 1.99;
   expectOne(warningsOf(answersOf(wild, small), {}),
-            {"overshoots", {{"wild", 2}, {"values", 10}, {"field", "f0"}}});
+            {"overshoots", {{"exceeding", 2}, {"values", 10}, {"field", "f0"}}});
 }
 
-TEST(AnswerSummary, TellsTheRangeOfAllBlocks)
+TEST(AnswerSummary, ReportsTheRangeOfAllBlocks)
 {
   const auto cloud = sampleFunctions({{0, 0, 0}, {1, 0, 0}}, {franke});
   detail::AnswerSummary summary(viewOf(cloud), {0, 1}, {"f0"});

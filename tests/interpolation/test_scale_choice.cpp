@@ -165,7 +165,7 @@ TEST(ChooseScale, IsOneWhereDirectionsAreAlike)
   }
 }
 
-TEST(ChooseScale, IsOneWhereSamplesTellNothing)
+TEST(ChooseScale, IsOneWhereSamplesDoNotDetermineIt)
 {
   const Field flat = [](const Vector3d& x) { return std::sin(40.0 * x[2]); };
   EXPECT_TRUE((choose(sample(flat, 99)).scale == 1.0f).all());

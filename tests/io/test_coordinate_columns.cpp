@@ -129,7 +129,7 @@ INSTANTIATE_TEST_SUITE_P(
         Header{"x_err,y_err,z_err,x_m,y_m,z_m", 4, 5, 6},
         Header{"std_lon,std_lat,std_depth,lon,lat,depth", 4, 5, 6}));
 
-/** Nothing is guessed beside a component of a vector, or between several boxes. */
+/** Nothing is assumed beside a component of a vector, or between several boxes. */
 TEST(CoordinateColumns, OtherQuantitiesAreRefused)
 {
   for (const char* const line : {"x_vel,y_vel,z_vel,rho",
@@ -170,7 +170,7 @@ TEST(CoordinateColumns, LettersOfMapsCountTogether)
     const Dataset dataset = load(line);
     EXPECT_EQ(1.5, valueOf(dataset, "x", 0)) << line;
     ASSERT_EQ(1u, dataset.notes.size()) << line;
-    EXPECT_EQ("guessed_coordinates", dataset.notes[0].code) << line;
+    EXPECT_EQ("assumed_coordinates", dataset.notes[0].code) << line;
   }
   EXPECT_EQ("some_coordinates_named", codeOf([&] { load("n,e,grade"); }));
 }

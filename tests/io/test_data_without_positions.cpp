@@ -134,7 +134,7 @@ TEST(DataWithoutPositions, ByDefaultTheFirstColumnsAreCoordinates)
   EXPECT_EQ(2.5, coordinateOf(dataset, 1, 0));
   ASSERT_EQ(1u, dataset.notes.size());
   EXPECT_EQ(dataset.notes[0],
-            Message("guessed_coordinates",
+            Message("assumed_coordinates",
                     {{"skips_times", 0}, {"x", "a"}, {"y", "b"}, {"z", "c"}}));
   EXPECT_THROW(load("a,b\n1,2\n", true), IOError);
 }

@@ -24,7 +24,7 @@ using pcl_uvol::PointSplat;
 
 /** Rows far out among the samples, with a value on either side of the isovalue. */
 Cloud::Ptr
-withStrays(const Cloud& cloud, const std::vector<float>& places)
+withOutliers(const Cloud& cloud, const std::vector<float>& places)
 {
   Cloud::Ptr more(new Cloud(cloud));
   for (const float place : places) {
@@ -57,7 +57,7 @@ TEST(FarPoints, AreLeftOutCountedAndNamed)
   Report report;
   const IsosurfaceParameters settings = settingsOf(Interpolation::Fit);
   const Isopoints expected = extract(cloud, settings);
-  expectSame(expected, extract(withStrays(*cloud, {-1e20f}), settings, &report));
+  expectSame(expected, extract(withOutliers(*cloud, {-1e20f}), settings, &report));
   EXPECT_EQ(1u, report.getCount("far_points"));
   ASSERT_EQ(1u, report.warnings.size());
   EXPECT_EQ(
@@ -70,7 +70,7 @@ TEST(FarPoints, AreLeftOutCountedAndNamed)
       "at (-1e+20, 1e+20, 1).",
       report.warnings[0].text());
   const std::vector<float> many(1000, 3.4e38f);
-  expectSame(expected, extract(withStrays(*cloud, many), settings, &report));
+  expectSame(expected, extract(withOutliers(*cloud, many), settings, &report));
   EXPECT_EQ(1000u, report.getCount("far_points"));
 }
 
@@ -79,14 +79,14 @@ TEST(FarPoints, WithinReachStay)
   const auto cloud = makeSamples(0);
   Report report;
   const auto isopoints =
-      extract(withStrays(*cloud, {1e12f}), settingsOf(Interpolation::Fit), &report);
+      extract(withOutliers(*cloud, {1e12f}), settingsOf(Interpolation::Fit), &report);
   EXPECT_EQ(0u, report.getCount("far_points"));
   EXPECT_GT(isopoints.size(), 400u);
 }
 
 TEST(FarPoints, AreTheSameOnRanksAndDisks)
 {
-  const auto cloud = withStrays(*makeSamples(0, 40000), {1e20f, -3e30f, 1e20f});
+  const auto cloud = withOutliers(*makeSamples(0, 40000), {1e20f, -3e30f, 1e20f});
   const IsosurfaceParameters settings = settingsOf(Interpolation::Fit);
   Report alone;
   const Isopoints expected = extract(cloud, settings, &alone);
@@ -101,7 +101,7 @@ TEST(FarPoints, AreTheSameOnRanksAndDisks)
 
 TEST(FarPoints, HarmNoStage)
 {
-  const auto cloud = withStrays(*makeSamples(0), {1e20f, -1e34f});
+  const auto cloud = withOutliers(*makeSamples(0), {1e20f, -1e34f});
   std::vector<int> all(cloud->size());
   std::iota(all.begin(), all.end(), 0);
   const auto view = pcl_uvol::viewOf(*cloud);
@@ -116,7 +116,7 @@ TEST(FarPoints, HarmNoStage)
 
   Cloud sphere;
   pcl::copyPointCloud(*makeSphere(2000, 3), sphere);
-  const auto surface = withStrays(sphere, {1e20f, -1e34f});
+  const auto surface = withOutliers(sphere, {1e20f, -1e34f});
   const auto surface_view = pcl_uvol::viewOf(*surface);
   const auto normals = pcl_uvol::detail::estimateSurfaceNormals(
       surface_view, allOf(surface->size()), {}, nullptr, 0, report);

@@ -83,7 +83,7 @@ TEST_F(MappedTables, AreMappedAroundTheirMedian)
                     {{"longitude", "180 E"},
                      {"latitude", "42.5 S"},
                      {"in_metres", 0},
-                     {"tells_z", 0},
+                     {"gives_z", 0},
                      {"z", ""}}),
             points.notes[0]);
 }

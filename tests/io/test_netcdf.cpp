@@ -194,7 +194,7 @@ TEST_P(Netcdf, ReadsProfiles)
   EXPECT_EQ(0u, wordOf(dataset.notes[0], "longitude").find("180 "));
   EXPECT_EQ("41 N", wordOf(dataset.notes[0], "latitude"));
   EXPECT_EQ(0.0, numberOf(dataset.notes[0], "in_metres"));
-  EXPECT_EQ(1.0, numberOf(dataset.notes[0], "tells_z"));
+  EXPECT_EQ(1.0, numberOf(dataset.notes[0], "gives_z"));
   EXPECT_EQ("minus PRES in decibar", wordOf(dataset.notes[0], "z"));
   pcl_uvol::Report report;
   EXPECT_EQ(3u, selectRows(dataset, "TEMP_QC=1", {}, report));

@@ -52,7 +52,7 @@ TEST_F(CloudHeader, IsWhatIsLoaded)
 }
 
 /** Coordinates in double wait for their origin as records. */
-TEST_F(CloudHeader, TellsThePeakOfReading)
+TEST_F(CloudHeader, EstimatesThePeakOfReading)
 {
   if (uvol_test::isSanitized())
     GTEST_SKIP() << "Sanitizers take memory of their own.";
@@ -88,7 +88,7 @@ TEST_F(CloudHeader, TellsThePeakOfReading)
   }
 }
 
-TEST_F(CloudHeader, IsNothingWhereOnlyReadingTells)
+TEST_F(CloudHeader, IsNothingWhereTheDataMustBeRead)
 {
   const auto dataset = uvol_test::makeDataset({}, 1000, 1);
   for (const char* const name : {"a.csv", "a.vtp"}) {

@@ -303,7 +303,7 @@ TEST(PointStream, LinesLongerThanABuffer)
   expectTextStreams("x y z\n1 2 3\n4" + blanks + "5 6\n7 8 9\n");
 }
 
-TEST(PointStream, DamageIsToldAsByLoading)
+TEST(PointStream, DamageIsReportedAsByLoading)
 {
   const auto dataset = makeDataset({{"a", Type::FLOAT32}, {"id", Type::INT32}}, 40, 4);
   for (const auto& format : formats) {

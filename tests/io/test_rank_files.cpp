@@ -119,7 +119,7 @@ TEST(RankFiles, DealPiecesOut)
   }
 }
 
-TEST(RankFiles, TellTheBoxThatAllPiecesName)
+TEST(RankFiles, ReportTheBoxThatAllPiecesName)
 {
   const TemporaryFolder folder;
   const auto write = [&](const std::string& name, double box) {

@@ -150,7 +150,7 @@ TEST_F(Gadget, PartsOfAnotherPrecisionAreRefused)
   EXPECT_EQ("disagreeing_parts", codeOf([&] { loadDataset(folder_ / "snap.0"); }));
 }
 
-TEST_F(Gadget, ComovingUnitsAndBoxesAreTold)
+TEST_F(Gadget, ComovingUnitsAndBoxesAreReported)
 {
   GadgetLayout layout = mixed();
   layout.redshift = 2.0;

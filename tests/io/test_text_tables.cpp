@@ -383,13 +383,13 @@ TEST(TextTables, WhereTheCoordinatesAre)
   EXPECT_EQ(describeFields(first.cloud.fields), xyz + ", q (int32)");
   ASSERT_EQ(first.notes.size(), 1u);
   EXPECT_EQ(first.notes[0],
-            Message("guessed_coordinates",
+            Message("assumed_coordinates",
                     {{"skips_times", 0}, {"x", "u"}, {"y", "v"}, {"z", "w"}}));
   const auto unnamed = load("1 2 3 4\n5 6 7 8\n", {}, "a.xyz");
   EXPECT_EQ(describeFields(unnamed.cloud.fields), xyz + ", column_3 (int32)");
   EXPECT_EQ(unnamed.cloud.width, 2u);
   EXPECT_EQ(listCodes(unnamed.notes),
-            (std::vector<std::string>{"no_header_line", "guessed_coordinates"}));
+            (std::vector<std::string>{"no_header_line", "assumed_coordinates"}));
   EXPECT_EQ(numberOf(unnamed.notes.at(0), "last"), 3.0);
   LoadOptions options;
   options.xyz_columns = {{"3", "1", "0"}};
@@ -449,7 +449,7 @@ TEST(TextTables, CoordinatesHaveUsualNames)
   }
 }
 
-TEST(TextTables, MixedUnitsAreToldUnlessNobodyMinds)
+TEST(TextTables, MixedUnitsAreReportedUnlessAllowed)
 {
   for (const auto& [header, mixture] : {std::pair("lon,lat,depth",
                                                   Message("mixed_units",
@@ -474,7 +474,7 @@ TEST(TextTables, MixedUnitsAreToldUnlessNobodyMinds)
   }
 }
 
-TEST(TextTables, WhereAnAxisIsNamedNothingIsGuessed)
+TEST(TextTables, WhereAnAxisIsNamedNothingIsAssumed)
 {
   for (const char* const header : {"time_s,x_m,y_m,q",
                                    "a,b,c,depth_m",
@@ -502,10 +502,10 @@ TEST(TextTables, TimesAreNoCoordinates)
                                  "t",
                                  "t (s)",
                                  "unix.ms"}) {
-    const auto guessed = load(std::string(time) + ",u,v,w\n1.5,2.5,3.5,4.5\n");
-    EXPECT_EQ(valueOf(guessed, "x", 0), 2.5) << time;
-    EXPECT_EQ(guessed.notes.at(0),
-              Message("guessed_coordinates",
+    const auto assumed = load(std::string(time) + ",u,v,w\n1.5,2.5,3.5,4.5\n");
+    EXPECT_EQ(valueOf(assumed, "x", 0), 2.5) << time;
+    EXPECT_EQ(assumed.notes.at(0),
+              Message("assumed_coordinates",
                       {{"skips_times", 1}, {"x", "u"}, {"y", "v"}, {"z", "w"}}))
         << time;
   }
@@ -518,7 +518,7 @@ TEST(TextTables, WholeNumbersAreNoCoordinatesUnlessNamed)
 {
   const std::string table = "experiment,ix,iy,iz,ppm\n1,0,1,2,0.5\n1,3,4,5,0.25\n";
   const auto refusal = refusalOf(table);
-  EXPECT_EQ(refusal.code, "whole_numbers_guessed");
+  EXPECT_EQ(refusal.code, "ambiguous_integers");
   EXPECT_EQ(wordOf(refusal, "column"), "experiment");
   LoadOptions options;
   options.xyz_columns = {{"ix", "iy", "iz"}};
@@ -526,7 +526,7 @@ TEST(TextTables, WholeNumbersAreNoCoordinatesUnlessNamed)
   // One whole number is enough for a doubt.
   EXPECT_EQ(wordOf(refusalOf("u,v,w\n0.5,2,3.5\n"), "column"), "v");
   EXPECT_EQ(listCodes(load("u,v,w\n0.5,2.5,3.5\n").notes),
-            std::vector<std::string>{"guessed_coordinates"});
+            std::vector<std::string>{"assumed_coordinates"});
   EXPECT_EQ(load("1 2 3 4\n", {}, "a.xyz").cloud.width, 1u); // no header, no doubt
 }
 

@@ -164,7 +164,7 @@ TEST(Values, GradientsAndLevelSetsFollow)
     EXPECT_NEAR(phi[i], far_phi[i], 1e-3);
 }
 
-TEST(Values, RangesAreToldInDigitsThatDiffer)
+TEST(Values, RangesAreDescribedInDigitsThatDiffer)
 {
   Report report;
   extractDoubles(

@@ -35,7 +35,7 @@ makeFit()
   return result;
 }
 
-TEST(FitJudgement, TellsTheOrderOfTheFit)
+TEST(FitJudgement, ReportsTheOrderOfTheFit)
 {
   FitResult fit = makeFit();
   EXPECT_EQ(RootOutcome::Cubic, judge(fit, 0, makeSurroundings()));
@@ -237,7 +237,7 @@ TEST(FitJudgement, MetricsAreLeftAsCoordinatesAre)
   EXPECT_DOUBLE_EQ(0.5 * gradient.norm() / slope.norm(), fit.bias[0]);
 }
 
-TEST(FitJudgement, IsopointsInGapsAreSureOfTheirEdgeOnly)
+TEST(FitJudgement, ErrorsInGapsAreThoseOfTheEdge)
 {
   IsoEdge edge{};
   edge.t = 0.25f;

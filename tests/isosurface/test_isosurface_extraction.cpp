@@ -147,7 +147,7 @@ TEST(IsosurfaceExtraction, DeviationFallsWithTheSquareOfTheSpacing)
   EXPECT_NEAR(2.0, std::log2(in_radii(coarse) / in_radii(fine)), 0.2);
 }
 
-TEST(IsosurfaceExtraction, LinearNormalsPointToLowerValuesUnlessToldOtherwise)
+TEST(IsosurfaceExtraction, LinearNormalsPointToLowerValuesByDefault)
 {
   const auto radial = uvol_test::makeRadialCloud(20000, 3);
   for (const auto outside : {pcl_uvol::Outside::Lower, pcl_uvol::Outside::Higher}) {

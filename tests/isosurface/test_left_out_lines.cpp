@@ -146,7 +146,7 @@ TEST(LeftOutLines, AreThoseOfCloudsThatNeverHadThem)
   }
 }
 
-TEST(LeftOutLines, TellNothingMoreWhereAFitIsRight)
+TEST(LeftOutLines, AddNothingWhereAFitIsRight)
 {
   const Vector3d along = Vector3d::UnitZ();
   int weighted = 0;

@@ -77,7 +77,7 @@ protected:
   int weighted_[fit_lanes] = {};
 };
 
-TEST_F(LogarithmicFit, TakesThePlaceOfAllThatTellsOfTheSurface)
+TEST_F(LogarithmicFit, ReplacesAllThatDescribesTheSurface)
 {
   ASSERT_TRUE(isTaken(2.0f));
   EXPECT_EQ(0.125, result_.offset[2][lane]);
@@ -173,7 +173,7 @@ TEST_F(SideByLogarithms, IsTheirsBeyondTheSamples)
   }
 }
 
-TEST_F(SideByLogarithms, IsThatOfTheSurerFit)
+TEST_F(SideByLogarithms, IsThatOfTheFitWithTheSmallerError)
 {
   result_.value_error[lane] = 11.0 / 2.51;
   EXPECT_EQ(11.0, findValue());
@@ -219,7 +219,7 @@ TEST_F(SideByLogarithms, IsTheirsOfNegativeValues)
   EXPECT_EQ(0.25, result_.value[lane]);
 }
 
-TEST_F(LogarithmicFit, TellsOfNoValueBeyondFloat)
+TEST_F(LogarithmicFit, HasNoValueBeyondFloat)
 {
   const FitResult of_values_before = result_;
   const Surroundings before = surroundings_[lane];

@@ -237,7 +237,7 @@ TEST(SmoothRoots, LabelsAndLinesOfSamplesKeepTheLinearPoint)
 
 /** Two halves a wide gap apart: edges reach across it; beside it points know that they
  * lie on a rim. */
-TEST(SmoothRoots, TellWhatTheyStandOn)
+TEST(SmoothRoots, ReportWhatTheyRestOn)
 {
   auto places = randomPlaces(6000, Vector3d::Constant(-2.0), 1.0 / 64, 257);
   for (Position& place : places)

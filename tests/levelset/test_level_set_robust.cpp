@@ -304,7 +304,7 @@ TEST(LevelSetRobust, SaysWhyTheStartHasVanished)
 }
 
 /** Values in steps of two spacings, between two limits, of two classes. */
-TEST(LevelSetRobust, SaysThatValuesInStepsDoNotTellTheirNoise)
+TEST(LevelSetRobust, SaysThatValuesInStepsHideTheirNoise)
 {
   const auto told = [](const auto& change) {
     const auto cloud = makeBall(6.0, 10.0);
@@ -322,7 +322,7 @@ TEST(LevelSetRobust, SaysThatValuesInStepsDoNotTellTheirNoise)
   EXPECT_FALSE(told([](float f) { return std::round(8.0f * f) / 8.0f + 0.01f; }));
 }
 
-TEST(LevelSetRobust, TellsWhatSmoothingTookAway)
+TEST(LevelSetRobust, ReportsWhatSmoothingRemoved)
 {
   const auto both = makeNoisyCloud(makeSmallShape("sphere", 8.0), 0.1, 1).cloud;
   const auto other = makeNoisyCloud(makeSmallShape("sphere", 3.0), 0.1, 1).cloud;

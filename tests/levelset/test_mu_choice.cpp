@@ -52,7 +52,7 @@ TEST(MuChoice, NoiseThatNobodySeesIsLeft)
   EXPECT_FALSE(choose(0.0051).stages.empty());
 }
 
-TEST(MuChoice, NoiseThatIsToldTooLargeEndsNoSearch)
+TEST(MuChoice, TooLargeNoiseEndsNoSearch)
 {
   Report report;
   const LevelSetParameters parameters;

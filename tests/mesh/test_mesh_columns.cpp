@@ -14,7 +14,7 @@ namespace test_mesh_columns {
 using namespace pcl_uvol;
 using namespace uvol_test;
 
-TEST(MeshColumns, TellInsideFromOutsideOnGridPlanesToo)
+TEST(MeshColumns, DistinguishInsideFromOutsideOnGridPlanes)
 {
   // A box whose corners and edges lie above and below the places that are asked for.
   MeasuredShape box = makeBox({4.0, 4.0, 4.0});

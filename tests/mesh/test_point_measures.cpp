@@ -143,7 +143,7 @@ TEST(PointMeasures, MeansOfFieldsLieWithinTheirRange)
   }
 }
 
-TEST(PointMeasures, TellTheirInput)
+TEST(PointMeasures, ReportTheirInput)
 {
   SurfaceMeasures measures;
   EXPECT_EQ(nullptr, measures.getInputVertices());
@@ -233,7 +233,7 @@ TEST(PointMeasures, TheSameForAnyOrderUnitAndThreads)
   }
 }
 
-TEST(PointMeasures, PointsAloneHaveNoPartAndAreTold)
+TEST(PointMeasures, PointsAloneHaveNoPartAndAreReported)
 {
   MeasuredShape shape = scatterSphere(500, 10);
   shape.append(shape); // every point twice
@@ -254,7 +254,7 @@ TEST(PointMeasures, PointsAloneHaveNoPartAndAreTold)
   EXPECT_THROW(measures.compute(), InvalidArgument);
 }
 
-TEST(PointMeasures, NormalsOfAnySideAreTold)
+TEST(PointMeasures, NormalsOfAnySideAreReported)
 {
   MeasuredShape shape = scatterSphere(3000, 11);
   for (std::size_t i = 0; i < shape.normals.size(); i += 2)

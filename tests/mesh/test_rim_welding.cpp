@@ -146,7 +146,7 @@ TEST(RimWelding, NearVerticesBecomeOne)
   EXPECT_NEAR(4.0, strips.areaOf(result), 1e-6);
 }
 
-TEST(RimWelding, WhatCrowdsIsSpreadAlongTheRim)
+TEST(RimWelding, VerticesTooDenseAreSpreadAlongTheRim)
 {
   Strips strips({0.0, 1.0}, {0.0, 0.5, 0.51, 1.0});
   // Beside one another, and in the wrong order as seen from the other rim.

@@ -71,7 +71,7 @@ TEST(SurfaceMeasures, ToriHaveAHandle)
   EXPECT_NEAR(-1.0, torus.low[2], 1e-3);
 }
 
-TEST(SurfaceMeasures, FlatTrianglesMeasurePolyhedraAndTellWhatTheyMiss)
+TEST(SurfaceMeasures, FlatTrianglesMeasurePolyhedraAndReportWhatTheyMiss)
 {
   MeasuredShape sphere = makeEllipsoid({2.0, 2.0, 2.0}, 4);
   SurfaceMeasuresParameters parameters;
@@ -334,7 +334,7 @@ makeUnitMasses(std::size_t count, const Eigen::Vector3d& sides)
   return samples;
 }
 
-TEST(SurfaceMeasures, LeavesOutPiecesThatAreKnownNoBetterThanTheirSize)
+TEST(SurfaceMeasures, DropsPiecesWhoseErrorExceedsTheirSize)
 {
   MeasuredShape two = makeEllipsoid({2.0, 2.0, 2.0}, 3);
   const std::size_t body = two.places.size();

@@ -96,7 +96,7 @@ TEST(Attributes, StandardizedHaveMeanZeroAndDeviationOne)
   }
 }
 
-TEST(Attributes, KeepWhatTellsDoublesApart)
+TEST(Attributes, KeepWhatDistinguishesDoubles)
 {
   // Times in seconds after 1970 that differ by milliseconds.
   pcl::PCLPointCloud2 bytes;

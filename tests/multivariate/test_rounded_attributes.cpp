@@ -88,7 +88,7 @@ assay(std::uint64_t row, std::uint64_t column)
   return (column == 0 ? 0.3 : 0.05) * std::exp(0.6 * rock + 0.3 * own);
 }
 
-TEST(RoundedAttributes, StepsOfNoiseAreToldOf)
+TEST(RoundedAttributes, StepsOfNoiseAreReported)
 {
   const auto report = clusterValues(1, makeValues(5000, 1, [](auto row, auto column) {
                                       return roundTo(0.1, uniformAt(1, row, column));
@@ -102,7 +102,7 @@ TEST(RoundedAttributes, StepsOfNoiseAreToldOf)
       << warnings[0];
 }
 
-TEST(RoundedAttributes, AreToldOfByNameUntilNoiseSpreadsThem)
+TEST(RoundedAttributes, AreReportedByNameUntilNoiseSpreadsThem)
 {
   const Value rounded = [](auto row, auto column) {
     return roundTo(0.01, assay(row, column));
@@ -121,7 +121,7 @@ TEST(RoundedAttributes, AreToldOfByNameUntilNoiseSpreadsThem)
   EXPECT_LE(spread.getCount("clusters"), 1u);
 }
 
-TEST(RoundedAttributes, SeveralAreToldOfTogether)
+TEST(RoundedAttributes, SeveralAreReportedTogether)
 {
   const auto report = clusterValues(2, makeValues(50000, 2, [](auto row, auto column) {
                                       return roundTo(0.1, uniformAt(1, row, column));
@@ -134,7 +134,7 @@ TEST(RoundedAttributes, SeveralAreToldOfTogether)
   EXPECT_NE(std::string::npos, warnings[0].find("of a1 each, mostly")) << warnings[0];
 }
 
-TEST(RoundedAttributes, StepsAreToldInUnitsOfTheField)
+TEST(RoundedAttributes, StepsAreReportedInUnitsOfTheField)
 {
   for (const bool is_standardized : {true, false}) {
     const auto report = clusterCloud(

@@ -11,7 +11,7 @@
 
 namespace test_anisotropy {
 
-TEST(EqualizingScale, StretchesTheNarrowAxesAndIgnoresStrays)
+TEST(EqualizingScale, StretchesTheNarrowAxesAndIgnoresOutliers)
 {
   const auto cloud = uvol_test::makeCloud("uniform", 10000, 1);
   for (auto& point : *cloud) {

@@ -192,7 +192,7 @@ TEST(MetricFinder, FindsTheSameWithACopyInCommon)
   }
 }
 
-TEST(MetricFinder, TellsWhetherABallIsEmpty)
+TEST(MetricFinder, SaysWhetherABallIsEmpty)
 {
   const auto samples = makeSamples(makePositions("clusters", 2000));
   MetricFinder finder(*samples, k);

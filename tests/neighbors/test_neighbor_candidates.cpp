@@ -187,7 +187,7 @@ TEST(VoronoiCandidates, RefuseGridsThatAreTooLarge)
 }
 
 /** All but two of 5000 samples lie in one cell: 5000 candidates each. */
-TEST(VoronoiCandidates, RefuseCrowdsAndTellTheNumber)
+TEST(VoronoiCandidates, RefuseDenseCellsAndReportTheNumber)
 {
   auto cloud = makeCloud("uniform", 5000, 4);
   for (auto& point : *cloud)

@@ -48,7 +48,7 @@ summarize(const std::vector<Position>& positions,
   return summarizeSampling(*makeSamples(positions, scale), 0);
 }
 
-TEST(Sampling, TellsVolumesSheetsAndLines)
+TEST(Sampling, ClassifiesVolumesSheetsAndLines)
 {
   const auto volume = summarize(makeLattice(12, 12, 12, 1.0f, 1.0f, 1.0f));
   EXPECT_EQ(LocalDimension::Volume, volume.most);

@@ -211,7 +211,7 @@ struct Points {
   std::vector<std::uint32_t> use;
 };
 
-TEST(VoronoiDiagram, TellsItsCells)
+TEST(VoronoiDiagram, ReturnsItsCells)
 {
   using Cells = std::array<std::uint32_t, 3>;
   pcl_uvol::VoronoiDiagram<pcl::PointXYZ> diagram;

@@ -141,7 +141,7 @@ makeLines(std::size_t count)
 
 /** Ranks whose parts of the surface lie between more and between fewer lines say what
  * one process says of all of it. */
-TEST(DistributedIsosurfacePipeline, TellsOfGuessesAsOneProcessDoes)
+TEST(DistributedIsosurfacePipeline, ReportsWeakSupportAsOneProcessDoes)
 {
   const auto lines = makeLines(120);
   for (const bool is_linear : {true, false}) {

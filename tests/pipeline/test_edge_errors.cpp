@@ -123,7 +123,7 @@ TEST(EdgeErrors, AreOfTheUnstretchedSpace)
   EXPECT_NEAR(error, roots.findError(17, {1e9f, 1e9f, 1e9f}), 1e-3f * error);
 }
 
-TEST(EdgeErrors, AreNotToldWhereTheyDoNotShow)
+TEST(EdgeErrors, AreNotReportedWhereTheyDoNotShow)
 {
   const auto flat = [](double, double) { return 0.0; };
   EXPECT_TRUE(std::isinf(Roots(flat, 6, 3).findError(7)));  // too few

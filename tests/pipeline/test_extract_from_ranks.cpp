@@ -287,7 +287,7 @@ TEST(RankExtraction, TakesManyRanks)
 }
 
 /** Pieces end where neighbours would be, which changes little. */
-TEST(RankExtraction, TellsWhatTheSamplesAreLike)
+TEST(RankExtraction, ReportsTheSampling)
 {
   IsosurfaceParameters settings;
   settings.field = "intensity";

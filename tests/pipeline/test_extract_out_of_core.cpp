@@ -183,7 +183,7 @@ TEST_F(OutOfCore, TakesSettingsAndBadPointsAsMemoryDoes)
 }
 
 /** Pieces end where neighbours would be, which changes little. */
-TEST_F(OutOfCore, TellsWhatTheSamplesAreLike)
+TEST_F(OutOfCore, ReportsTheSampling)
 {
   const auto cloud = uvol_test::makeCloud("uniform", 200000, 8);
   save(*cloud);

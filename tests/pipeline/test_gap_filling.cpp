@@ -172,7 +172,7 @@ TEST(GapFilling, LinearIsopointsHaveErrorsAndSupport)
 
 /** What is said where no gap was filled: in the report's warnings, and as a fact. */
 std::pair<std::optional<Message>, std::string>
-tellUnfilled(const std::shared_ptr<Dataset>& samples)
+reportUnfilled(const std::shared_ptr<Dataset>& samples)
 {
   const auto result = uvol_test::runPipeline(samples, makeParameters(true));
   EXPECT_EQ(0u, result.gaps->predicted);
@@ -186,7 +186,7 @@ tellUnfilled(const std::shared_ptr<Dataset>& samples)
 TEST(GapFilling, SaysWhyItFillsNone)
 {
   // Nothing lies beside a profile.
-  const auto [few_warning, few] = tellUnfilled(makeProfiles(1));
+  const auto [few_warning, few] = reportUnfilled(makeProfiles(1));
   EXPECT_EQ("there are too few samples to estimate their width", few);
   EXPECT_TRUE(few_warning);
   // Samples all around have no gaps, and there is nothing to warn of.
@@ -201,7 +201,7 @@ TEST(GapFilling, SaysWhyItFillsNone)
   }
   const auto dense = std::make_shared<Dataset>();
   pcl::toPCLPointCloud2(cloud, dense->cloud);
-  const auto [dense_warning, around] = tellUnfilled(dense);
+  const auto [dense_warning, around] = reportUnfilled(dense);
   EXPECT_EQ("samples surround the surface", around);
   EXPECT_FALSE(dense_warning);
 }
@@ -228,7 +228,7 @@ makeNoisyProfiles(std::size_t count, float part)
 TEST(GapFilling, LeavesOutWhatItExplainsNothingOf)
 {
   // Values at random tell nothing of others.
-  const auto [warning, unfilled] = tellUnfilled(makeNoisyProfiles(30, 0.0f));
+  const auto [warning, unfilled] = reportUnfilled(makeNoisyProfiles(30, 0.0f));
   ASSERT_TRUE(warning);
   EXPECT_NE(std::string::npos,
             wordOf(*warning, "reason").find("the variogram range is "));
@@ -470,7 +470,7 @@ TEST(GapFilling, LeavesOutIsopointsThatAreMovedOutOfTheHull)
   EXPECT_GT(predicted, 5000u);
 }
 
-TEST(GapFilling, TellsProfilesThatWereLeftOut)
+TEST(GapFilling, PredictsHeldOutProfiles)
 {
   const auto samples = makeProfiles(80);
   auto parameters = makeParameters(true);
@@ -535,7 +535,7 @@ TEST(GapFilling, PredictsNothingBeyondTheRange)
   }
 }
 
-TEST(GapFilling, TellsConfidenceOfAllIsopoints)
+TEST(GapFilling, ReportsConfidenceOfAllIsopoints)
 {
   const IsosurfaceResult& result = fillProfiles(30);
   const auto points = uvol_test::toIsopoints(result);

@@ -110,7 +110,7 @@ extractAt(const std::shared_ptr<Dataset>& samples, double isovalue)
 
 /** What is said of most of the isopoints. */
 std::vector<Message>
-findGuesses(const IsosurfaceResult& result)
+findWeakSupport(const IsosurfaceResult& result)
 {
   std::vector<Message> found;
   for (const Message& warning : result.report.warnings)
@@ -126,9 +126,9 @@ findGuesses(const IsosurfaceResult& result)
 
 /** That most of the isopoints lie between lines of samples, and nothing else. */
 void
-expectLinesAreTold(const IsosurfaceResult& result)
+expectLinesAreReported(const IsosurfaceResult& result)
 {
-  const std::vector<Message> found = findGuesses(result);
+  const std::vector<Message> found = findWeakSupport(result);
   ASSERT_EQ(std::vector<std::string>{"unconstrained_isopoints"},
             uvol_test::listCodes(found));
   EXPECT_GE(uvol_test::numberOf(found[0], "percent"), 50.0);
@@ -156,40 +156,40 @@ countAtBorder(const IsosurfaceResult& result)
 TEST(IsopointChoice, BordersOfSamplesAreNoGapsBetweenLines)
 {
   const IsosurfaceResult corners = extractAt(makeSphere(20000), 0.6 - 1.62);
-  const std::vector<Message> told = findGuesses(corners);
+  const std::vector<Message> told = findWeakSupport(corners);
   ASSERT_EQ(std::vector<std::string>{"isopoints_at_border"},
             uvol_test::listCodes(told));
   const std::size_t percent =
       100 * countAtBorder(corners) / corners.surface.cloud.width;
   EXPECT_EQ(static_cast<double>(percent), uvol_test::numberOf(told[0], "percent"));
-  expectLinesAreTold(extractAt(makeProfiles(20), 0.0));
-  EXPECT_TRUE(findGuesses(extractAt(makeSphere(20000), 0.0)).empty());
+  expectLinesAreReported(extractAt(makeProfiles(20), 0.0));
+  EXPECT_TRUE(findWeakSupport(extractAt(makeSphere(20000), 0.0)).empty());
 }
 
 /** Linear isopoints and vertices of meshes rest on no more, and of the former a share
  * is looked at. */
-TEST(IsopointChoice, AllSurfacesOnLinesOfSamplesAreTold)
+TEST(IsopointChoice, AllSurfacesOnLinesOfSamplesAreReported)
 {
   IsosurfacePipelineParameters parameters = makeParameters(Interpolation::Linear);
   const IsosurfaceResult linear = uvol_test::runPipeline(makeProfiles(20), parameters);
-  expectLinesAreTold(linear);
+  expectLinesAreReported(linear);
   EXPECT_EQ(std::min<std::size_t>(1024, linear.surface.cloud.width),
             linear.report.getCount("examined"));
   for (const PointIso& point : uvol_test::toIsopoints(linear))
     EXPECT_EQ(0, point.support);
   EXPECT_TRUE(
-      findGuesses(uvol_test::runPipeline(makeSphere(20000), parameters)).empty());
+      findWeakSupport(uvol_test::runPipeline(makeSphere(20000), parameters)).empty());
 
   parameters = makeParameters(Interpolation::Auto);
   parameters.mesh.emplace();
   const IsosurfaceResult mesh = uvol_test::runPipeline(makeProfiles(20), parameters);
-  expectLinesAreTold(mesh);
+  expectLinesAreReported(mesh);
   EXPECT_TRUE(
-      findGuesses(uvol_test::runPipeline(makeSphere(20000), parameters)).empty());
+      findWeakSupport(uvol_test::runPipeline(makeSphere(20000), parameters)).empty());
   // Caps, of which most vertices are, rest on nothing.
   parameters.isosurface.isovalues = {0.6 - 1.25};
   EXPECT_TRUE(
-      findGuesses(uvol_test::runPipeline(makeSphere(20000), parameters)).empty());
+      findWeakSupport(uvol_test::runPipeline(makeSphere(20000), parameters)).empty());
 }
 
 /** There is no line in a slab two spacings thick, nor in a lattice of 3 by 3 by 3. */
@@ -216,7 +216,7 @@ TEST(IsopointChoice, FewSamplesAllAroundHaveABorder)
   for (const auto* const cloud : {&slab, &lattice}) {
     const auto samples = std::make_shared<Dataset>();
     pcl::toPCLPointCloud2(*cloud, samples->cloud);
-    const std::vector<Message> told = findGuesses(extractAt(samples, 0.0));
+    const std::vector<Message> told = findWeakSupport(extractAt(samples, 0.0));
     ASSERT_EQ(1u, told.size());
     EXPECT_TRUE(told[0].code == "isopoints_at_border" ||
                 told[0].code == "isopoints_beside_samples")
@@ -264,7 +264,7 @@ TEST(IsopointChoice, GoesBackToEdgesBetweenLines)
 }
 
 /** None goes back to its edge there: fields tell what it is on instead. */
-TEST(IsopointChoice, IsToldAfterLevelSetsAndInMeshes)
+TEST(IsopointChoice, IsReportedAfterLevelSetsAndInMeshes)
 {
   auto smoothed = makeParameters(Interpolation::Auto);
   smoothed.smooth = true;

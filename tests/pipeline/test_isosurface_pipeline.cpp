@@ -73,7 +73,7 @@ TEST(IsosurfacePipeline, IsTheExtractionWithAllFields)
   EXPECT_EQ(alone.data, result.surface.cloud.data);
 }
 
-TEST(IsosurfacePipeline, OrientsAsItIsTold)
+TEST(IsosurfacePipeline, OrientsAsTheParametersSay)
 {
   const auto samples = makeSamples();
   for (const auto interpolation : {Interpolation::Linear, Interpolation::Fit}) {
@@ -106,7 +106,7 @@ countKnown(const IsosurfaceResult& result)
   return known;
 }
 
-TEST(IsosurfacePipeline, LeavesOutWhatIsKnownNoBetterThanByItsEdge)
+TEST(IsosurfacePipeline, DropsIsopointsWhoseErrorExceedsHalfTheirEdge)
 {
   const auto samples = makeSamples();
   IsosurfacePipelineParameters parameters = makeParameters();
@@ -223,7 +223,7 @@ TEST(IsosurfacePipeline, SmoothsAsTheLevelSetAlone)
                                both.end()));
 }
 
-TEST(IsosurfacePipeline, TellsItsInput)
+TEST(IsosurfacePipeline, ReportsItsInput)
 {
   IsosurfacePipeline pipeline;
   EXPECT_EQ(nullptr, pipeline.getInput());

@@ -140,7 +140,7 @@ TEST(LevelSetErrors, AreUnknownWithoutDeviations)
     EXPECT_TRUE(std::isnan(point.error));
 }
 
-TEST(LevelSetErrors, ASurfaceThatVanishedIsToldByItsOwnIsovalue)
+TEST(LevelSetErrors, ASurfaceThatVanishedIsReportedWithItsIsovalue)
 {
   const auto noisy =
       uvol_test::makeNoisyCloud(uvol_test::makeSmallShape("sphere", 1.2), 0.0, 1);

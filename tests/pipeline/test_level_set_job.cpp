@@ -53,7 +53,7 @@ TEST(LevelSetJob, GivesThePhiOfTheEvolution)
   EXPECT_EQ(evolution.getSummary().noise, smoothed.summary.noise);
 }
 
-TEST(LevelSetJob, TakesPointsAndTellsSurfaces)
+TEST(LevelSetJob, TakesPointsAndReportsSurfaces)
 {
   const auto samples = makeSamples();
   LevelSetRequest request = makeRequest();

@@ -306,7 +306,7 @@ TEST(PeriodicBox, OfSeveralIsovaluesAndAlongOneAxisMeshesAreWelded)
   checkImages(torus, parameters.periodic);
 }
 
-TEST(PeriodicBox, WhatCannotBeWeldedIsToldOf)
+TEST(PeriodicBox, WhatCannotBeWeldedIsReported)
 {
   // Noise of the size of the surface itself: rims differ by more than samples do.
   auto samples = makePeriodicSamples(3000, [](const Place& p) {

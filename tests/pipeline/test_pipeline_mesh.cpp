@@ -103,7 +103,7 @@ TEST(PipelineMesh, SmoothFieldsHaveSmoothMeshes)
   EXPECT_EQ(0.0, valuesOf(smooth.surface, "isovalue").front());
 }
 
-TEST(PipelineMesh, TellsTheSampling)
+TEST(PipelineMesh, ReportsTheSampling)
 {
   auto parameters = makeParameters({0.0});
   const auto of = [&] {

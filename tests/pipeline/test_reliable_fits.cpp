@@ -92,7 +92,7 @@ TEST(ReliableFits, AreFoundWhereMostAroundContradictKriging)
 TEST(ReliableFits, AreNotWithoutFitsOrWithoutKriging)
 {
   auto crossings = makeCrossings(300);
-  const auto isSure = [&](double deviation) {
+  const auto isReliable = [&](double deviation) {
     return detail::ReliableFits(crossings,
                                 std::vector<std::uint8_t>(crossings.size(), 0),
                                 {crossings.size(), makeSlope(1.0, deviation)},
@@ -102,14 +102,14 @@ TEST(ReliableFits, AreNotWithoutFitsOrWithoutKriging)
                .find({{0.1, 0.2, 0.3}}, 1)
                .front() != 0;
   };
-  EXPECT_TRUE(isSure(1e3));
-  EXPECT_FALSE(isSure(0.5));
-  EXPECT_FALSE(isSure(std::numeric_limits<double>::quiet_NaN()));
+  EXPECT_TRUE(isReliable(1e3));
+  EXPECT_FALSE(isReliable(0.5));
+  EXPECT_FALSE(isReliable(std::numeric_limits<double>::quiet_NaN()));
   for (PointIso& point : crossings)
     point.error = std::numeric_limits<float>::infinity();
-  EXPECT_FALSE(isSure(1e3));
+  EXPECT_FALSE(isReliable(1e3));
   crossings.clear();
-  EXPECT_FALSE(isSure(1e3));
+  EXPECT_FALSE(isReliable(1e3));
 }
 
 IsosurfacePipelineParameters

@@ -70,7 +70,7 @@ at(double isovalue)
   return parameters;
 }
 
-TEST(Spikes, AreToldOfWhateverTheirSize)
+TEST(Spikes, AreReportedWhateverTheirSize)
 {
   for (const float spike : {5.0f, 1000.0f, 1e10f, -1000.0f})
     for (const std::size_t one_in : {30u, 300u}) {
@@ -83,7 +83,7 @@ TEST(Spikes, AreToldOfWhateverTheirSize)
     }
 }
 
-TEST(Spikes, AreToldOfInMeshesAndInTwoIsosurfaces)
+TEST(Spikes, AreReportedInMeshesAndInTwoIsosurfaces)
 {
   const auto samples = sample(sphere, 8000, 100, 1000.0f);
   auto parameters = at(0.0);
@@ -95,7 +95,7 @@ TEST(Spikes, AreToldOfInMeshesAndInTwoIsosurfaces)
 }
 
 /** A level set replaces them and says so itself. */
-TEST(Spikes, AreToldOnceWhereALevelSetReplacesThem)
+TEST(Spikes, AreReportedOnceWhereALevelSetReplacesThem)
 {
   auto parameters = at(0.0);
   parameters.smooth = true;

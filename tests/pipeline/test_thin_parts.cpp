@@ -65,7 +65,7 @@ makePlate(float layers, float sign = 1.0f)
   };
 }
 
-TEST(ThinParts, PlatesOfOneLayerOfSamplesAreTold)
+TEST(ThinParts, PlatesOfOneLayerOfSamplesAreReported)
 {
   for (const double jitter : {0.0, 0.3, 1.0})
     for (const float sign : {1.0f, -1.0f})

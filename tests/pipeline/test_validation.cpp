@@ -95,7 +95,7 @@ TEST(Validation, FindsAWellSampledSurfaceRight)
 }
 
 /** The score is that of the definition, which each sample can tell for itself. */
-TEST(Validation, CountsWhatItIsTold)
+TEST(Validation, CountsWhatItIsGiven)
 {
   std::vector<HeldOutSample> samples;
   const auto add = [&](bool above, bool nearest, bool field, bool side, bool covered) {

@@ -20,7 +20,7 @@ def linear():
 
 
 @pytest.mark.parametrize("model", ["fit", "natural", "laplace", "auto"])
-def test_linear_fields_are_told_exactly(linear, model):
+def test_linear_fields_are_predicted_exactly(linear, model):
     interpolator = uvol.Interpolator(linear, field="f", model=model)
     queries = np.random.default_rng(12).uniform(0.2, 0.8, (40, 3))
     answers = interpolator.evaluate(queries + [5e5, 4e6, 0])
@@ -198,7 +198,7 @@ def test_places_beside_which_the_extent_is_beyond_measure_have_the_nearest_value
         assert not np.any((found < 0) | (found > 4))
 
 
-def test_validation_tells_errors(linear):
+def test_validation_reports_errors(linear):
     scores = uvol.Interpolator(linear, field=["f", "g"]).validate(5, by="blocks")
     assert list(scores) == ["f", "g"] and scores["f"]["tested"] == 2000 and scores["f"]["rms"] < 1e-3
     with raises(ValueError, "folds_not_allowed", {"folds": 1}):
@@ -342,7 +342,7 @@ def test_cells_of_a_file_say_where_the_data_are(notched):
     assert np.allclose(uvol.Interpolator(samples.where("f < 100"), field="f").evaluate(places).values[2], 39, atol=1e-5)
 
 
-def test_cells_of_a_file_that_has_changed_are_told_of(notched, monkeypatch):
+def test_changed_cells_of_a_file_are_reported(notched, monkeypatch):
     monkeypatch.chdir(notched.parent)
     samples = uvol.read(notched.name)
     monkeypatch.chdir("/")

@@ -243,7 +243,7 @@ def test_samples_without_a_value_get_a_sentence(points, fields, code):
         uvol.isosurface(points, fields, iso=0.5)
 
 
-def test_progress_is_told_and_may_end_the_work(ball):
+def test_progress_is_reported_and_may_end_the_work(ball):
     told = []
     random = np.random.default_rng(3)
     points = random.random((60000, 3))
@@ -477,7 +477,7 @@ def test_memory_that_is_not_there_is_a_memoryerror(run_python):
      "not_enough_memory .* 1000000000 .*'needed': '24 GB'"),
     ("uvol.Samples(points).render(size=6000)", "memory_for_picture .*'width': 6000, 'height': 6000"),
 ])
-def test_memory_that_is_not_there_is_told_with_what_it_is_for(run_python, call, pattern):
+def test_missing_memory_is_reported_with_its_purpose(run_python, call, pattern):
     out = run_python(f"""
         import resource, numpy as np, pcl_uvol as uvol
         import pcl_uvol._charts

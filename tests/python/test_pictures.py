@@ -182,7 +182,7 @@ def test_a_field_of_vectors_is_coloured_by_their_lengths(sphere):
     assert sphere.render(size=64, color="vel").field == "|vel|"
 
 
-def test_a_bar_tells_what_colours_stand_for(sphere):
+def test_a_bar_shows_what_colours_mean(sphere):
     with_bar = sphere.render(size=(200, 150), color="r", background="black").pixels
     without = sphere.render(size=(200, 150), color="r", background="black", bar=False).pixels
     assert (with_bar[:, -30:, :3] != 0).any(axis=2).mean() > (without[:, -30:, :3] != 0).any(axis=2).mean()

@@ -456,7 +456,7 @@ def test_names_are_no_values(use):
     lambda samples: uvol.level_set(samples, field="r", iso=0.5, max_steps=3).report,
     lambda samples: uvol.Interpolator(samples, field=["r", "day"])._core.report,
 ])
-def test_samples_that_contradict_each_other_are_told_of(use, recwarn):
+def test_samples_that_contradict_each_other_are_reported(use, recwarn):
     points = np.random.default_rng(1).random((500, 3))
     fields = {"r": np.r_[points[:, 0], points[:, 0] + 0.1], "day": np.repeat([1, 2], 500)}
     samples = uvol.Samples(np.r_[points, points], fields)
@@ -469,7 +469,7 @@ def test_samples_that_contradict_each_other_are_told_of(use, recwarn):
     assert "conflicting_samples" not in [getattr(warning.message, "code", None) for warning in recwarn]
 
 
-def test_an_extractor_tells_of_contradictions_each_time(ball):
+def test_an_extractor_reports_contradictions_each_time(ball):
     points, fields = ball
     twice = uvol.Samples(np.r_[points, points], {"r": np.r_[fields["r"], fields["r"] + 0.01]})
     extractor = uvol.Extractor(twice)

@@ -35,18 +35,18 @@ def test_level_sets(tmp_path, run_tool, ball, arguments, options):
             lambda samples: uvol.level_set(samples, field="r", iso=0.3, **options))
 
 
-def test_level_sets_tell_of_guesses_as_the_tool_does(tmp_path, run_tool):
+def test_level_sets_report_weak_support_as_the_tool_does(tmp_path, run_tool):
     run_tool("uvol_generate", "in.pcd", "-field", "torus", "-n", 5000, "-samples", "holes")
     told = json.loads(run_tool("uvol_levelset", "in.pcd", "out.ply", "-field", "torus", "-iso", 0, "-steps", 1, "-json"))
-    guesses = [warning for warning in told["warnings"] if warning["code"] == "unconstrained_level_set"]
-    assert len(guesses) == 1
+    weak = [warning for warning in told["warnings"] if warning["code"] == "unconstrained_level_set"]
+    assert len(weak) == 1
     with warns("unconstrained_level_set") as warned:
         found = uvol.level_set(uvol.read(tmp_path / "in.pcd"), field="torus", iso=0, max_steps=1)
     assert "unconstrained_level_set" in [warning.message.code for warning in warned]
     same = [warning for warning in found.report["warnings"] if warning["code"] == "unconstrained_level_set"]
-    assert [warning["values"] for warning in same] == [guesses[0]["values"]]
+    assert [warning["values"] for warning in same] == [weak[0]["values"]]
     # The tool names options, the module arguments.
-    assert " -fill-gaps " in guesses[0]["text"] and " fill_gaps " in same[0]["text"]
+    assert " -fill-gaps " in weak[0]["text"] and " fill_gaps " in same[0]["text"]
 
 
 @pytest.mark.parametrize("arguments, options", [
@@ -81,7 +81,7 @@ def test_level_sets_of_derivatives_see_across_the_faces(tmp_path, run_tool, scal
     assert np.abs(smooth["|grad(f)|"] - truth).max() < 0.15
 
 
-def test_a_level_set_tells_of_its_steps(ball):
+def test_a_level_set_reports_its_steps(ball):
     smooth = uvol.level_set(*ball, field="r", iso=0.3, mu=0.5)
     assert smooth.report["mu"] == 0.5 and len(smooth.report["steps"]) > 0
     assert smooth["phi"].shape == (4000,)
@@ -89,7 +89,7 @@ def test_a_level_set_tells_of_its_steps(ball):
     assert np.mean((smooth["phi"] < 0) == inside) > 0.97
 
 
-def test_the_choice_of_a_weight_tells_its_progress(ball):
+def test_the_choice_of_a_weight_reports_its_progress(ball):
     points, fields = ball
     random = np.random.default_rng(8)
     points = random.random((40000, 3))  # enough to take some time
@@ -184,7 +184,7 @@ def test_clusters_that_are_known_have_surfaces(tmp_path, run_tool, groups):
     assert len(uvol.cluster(halves, labels=halves["half"])) == 2
 
 
-def test_samples_tell_what_the_sampling_is_like(tmp_path, run_tool, ball):
+def test_samples_report_their_sampling(tmp_path, run_tool, ball):
     uvol.Samples(*ball).save(tmp_path / "in.ply")
     run_tool("uvol_info", "in.ply", "-out", "tool.ply", "-scale", "1,2,1")
     uvol.read(tmp_path / "in.ply").sampling(scale=(1, 2, 1)).save(tmp_path / "module.ply")

@@ -197,7 +197,7 @@ countDark(const Image& image, int level)
   return dark;
 }
 
-TEST(HardSurfaces, AStrayNormalMakesNoBlackSquare)
+TEST(HardSurfaces, AnOutlyingNormalMakesNoBlackSquare)
 {
   // As dense as pixels, so that every one of them has its own point.
   const SurfaceCloudPtr plane(new pcl::PointCloud<pcl::PointNormal>);

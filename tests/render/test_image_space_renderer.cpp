@@ -55,7 +55,7 @@ TEST(ImageSpaceRenderer, GivesTheSameBytesWhateverWasDrawnBefore)
   EXPECT_EQ(image.id, expected.id);
 }
 
-TEST(ImageSpaceRenderer, TellsWhatItWasSetTo)
+TEST(ImageSpaceRenderer, ReturnsWhatItWasSetTo)
 {
   Renderer renderer;
   EXPECT_FALSE(renderer.getCamera());

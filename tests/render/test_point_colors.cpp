@@ -67,7 +67,7 @@ makeScalar(const std::vector<float>& values)
   return dataset;
 }
 
-TEST(PointColors, TellTimeStampsApart)
+TEST(PointColors, DistinguishTimeStamps)
 {
   // A float holds seven digits.
   auto dataset = makeDataset({{"t", Type::FLOAT64}}, 5, 1);
@@ -249,7 +249,7 @@ TEST(PointColors, OfCategoriesAreThoseOfWholeNumbers)
       pcl_uvol::listCategories(pcl_uvol::viewOf(fractions.cloud), "q", 3).empty());
 }
 
-TEST(PointColors, TellCategoriesApartThatWouldShareAColor)
+TEST(PointColors, DistinguishCategoriesThatWouldShareAColor)
 {
   const ColorMap map("tab10");
   const auto colorsOf = [&](const std::vector<float>& values) {

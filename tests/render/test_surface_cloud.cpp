@@ -89,7 +89,7 @@ TEST(SurfaceCloud, TakesOneAndTwoPoints)
   }
 }
 
-TEST(SurfaceCloud, TellsCamerasOfItsDiscsButNotOfLonelyPoints)
+TEST(SurfaceCloud, GivesCamerasItsDiscsButNotIsolatedPoints)
 {
   auto cloud = *uvol_test::makeSphere(4000, 1);
   for (auto& point : cloud)
@@ -115,7 +115,7 @@ TEST(SurfaceCloud, TellsCamerasOfItsDiscsButNotOfLonelyPoints)
   EXPECT_TRUE(std::isnan(discs[on_sphere + 1].radius));
 }
 
-TEST(SurfaceCloud, OfDotsAloneTellsCamerasOfDots)
+TEST(SurfaceCloud, OfDotsAloneGivesCamerasDots)
 {
   Report report;
   const auto cloud = *uvol_test::makeSphere(2, 1);

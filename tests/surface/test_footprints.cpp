@@ -398,7 +398,7 @@ TEST(Footprints, OfBridgedIsopointsAreNone)
   }
 }
 
-TEST(Footprints, TellTheRimFromTheMiddle)
+TEST(Footprints, DistinguishTheRimFromTheMiddle)
 {
   const Surface surface(makePlane(4000));
   const float spacing = std::sqrt(4.0f / 4000);

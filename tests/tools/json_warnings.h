@@ -29,7 +29,7 @@ hasWarning(const nlohmann::json& report, const std::string& code)
 /** \brief Whether a report that is printed as JSON has a warning or an error of that
  * code. */
 inline bool
-tellsOf(const CommandResult& report, const std::string& code)
+hasMessage(const CommandResult& report, const std::string& code)
 {
   return report.out.find("\"code\": \"" + code + '"') != std::string::npos;
 }

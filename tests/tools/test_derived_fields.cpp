@@ -143,7 +143,7 @@ TEST_F(DerivedFields, WrongOnesAreMarked)
   const auto result = runCommand("uvol_isosurface " + in_ + " " + out_ +
                                  " -field 'sqrt(vx + wy)' -iso 1 -json");
   EXPECT_EQ(1, result.exit_code);
-  EXPECT_TRUE(uvol_test::tellsOf(result, "unknown_operand")) << result.out;
+  EXPECT_TRUE(uvol_test::hasMessage(result, "unknown_operand")) << result.out;
   EXPECT_NE(std::string::npos, result.err.find("\n  sqrt(vx + wy)\n            ^\n"))
       << result.err;
   EXPECT_EQ(std::vector<std::string>{"in.csv"}, folder_.list());

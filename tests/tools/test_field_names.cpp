@@ -62,7 +62,7 @@ TEST_F(FieldNames, WithCommasAreTakenAsTheyAre)
   const auto wrong =
       runTool("probe in.csv out.csv -points at.csv -json -field 'Porosity, share'");
   EXPECT_EQ(1, wrong.exit_code);
-  EXPECT_TRUE(uvol_test::tellsOf(wrong, "unknown_lone_field")) << wrong.out;
+  EXPECT_TRUE(uvol_test::hasMessage(wrong, "unknown_lone_field")) << wrong.out;
 }
 
 TEST_F(FieldNames, LoseTheirQuotes)

@@ -113,7 +113,7 @@ TEST_F(InputOptions, ChooseTheSamplesThatLevelSetsAndNormalsKeep)
   }
 }
 
-TEST_F(InputOptions, TellOfSamplesThatContradictEachOther)
+TEST_F(InputOptions, ReportSamplesThatContradictEachOther)
 {
   for (const std::string job : {"isosurface in.csv out.ply -field t -iso 9 ",
                                 "isosurface in.csv out.ply -field t -iso 8,9 -smooth ",

@@ -95,7 +95,7 @@ TEST_F(Labels, SelectPoints)
   EXPECT_NE(std::string::npos, wrong.err.find("did you mean 'A-11'")) << wrong.err;
   const auto order = run("convert holes.csv b.csv -json -where 'hole<A-12'");
   EXPECT_EQ(1, order.exit_code);
-  EXPECT_TRUE(uvol_test::tellsOf(order, "names_not_compared")) << order.out;
+  EXPECT_TRUE(uvol_test::hasMessage(order, "names_not_compared")) << order.out;
 }
 
 TEST_F(Labels, MayHoldQuotationMarks)
@@ -123,8 +123,8 @@ TEST_F(Labels, AreCarriedToIsopointsAndWrittenByEveryFormat)
   ASSERT_EQ(1u, table.labels.count("hole"));
   EXPECT_GT(table.labels.at("hole").size(), 5u);
   const CommandResult told = run(iso + " -json");
-  EXPECT_TRUE(uvol_test::tellsOf(told, "numbered_names_listed") ||
-              uvol_test::tellsOf(told, "numbered_names"))
+  EXPECT_TRUE(uvol_test::hasMessage(told, "numbered_names_listed") ||
+              uvol_test::hasMessage(told, "numbered_names"))
       << told.out;
   for (const char* const format : {"s.ply", "s.pcd"}) {
     const Dataset points =

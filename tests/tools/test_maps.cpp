@@ -174,7 +174,7 @@ TEST_F(Maps, RefusesMapsThatAreNone)
 
 /** A file of the collection beside the real data; "": it is not there. */
 std::string
-wildFile(const std::string& name)
+findForeignFile(const std::string& name)
 {
   const std::string data = uvol_test::dataFolder();
   const std::string path = data.empty() ? "" : data + "/../wild/" + name;
@@ -183,7 +183,7 @@ wildFile(const std::string& name)
 
 TEST_F(Maps, ValuesAtPositionsOfAGlider)
 {
-  const std::string glider = wildFile("real/pyglider_eva035_timeseries.nc");
+  const std::string glider = findForeignFile("real/pyglider_eva035_timeseries.nc");
   if (glider.empty())
     GTEST_SKIP() << "the file of a glider is not there ($PCL_UVOL_DATA)";
   write("b.csv", makeQueries(loadDataset(glider), "longitude", "latitude"));
@@ -204,7 +204,7 @@ protected:
   void
   SetUp() override
   {
-    glider_ = wildFile("real/pyglider_eva035_timeseries.nc");
+    glider_ = findForeignFile("real/pyglider_eva035_timeseries.nc");
     if (glider_.empty())
       GTEST_SKIP() << "the file of a glider is not there ($PCL_UVOL_DATA)";
   }
@@ -273,7 +273,8 @@ TEST_F(GliderIsotherm, EndsHalfAGapOutsideOfTheHull)
 
 TEST_F(Maps, TwoLostFixesDoNotChangeAVolume)
 {
-  const std::string good = wildFile("made/zz_ok.nc"), two = wildFile("made/zz_two.nc");
+  const std::string good = findForeignFile("made/zz_ok.nc"),
+                    two = findForeignFile("made/zz_two.nc");
   if (good.empty() || two.empty())
     GTEST_SKIP() << "the files are not there ($PCL_UVOL_DATA)";
   const auto origin = [](const std::string& path) {

@@ -110,7 +110,7 @@ isopointsIn(const std::string& json)
 
 /** Whether an isovalue has no isopoints. */
 bool
-tellsOfNone(const std::string& json)
+reportsNoneAround(const std::string& json)
 {
   const auto report = nlohmann::json::parse(json);
   return uvol_test::hasWarning(report, "no_isopoints") ||
@@ -120,7 +120,7 @@ tellsOfNone(const std::string& json)
 
 /** No data set has enough of them. */
 bool
-tellsOfSpikes(const std::string& json)
+reportsSpikes(const std::string& json)
 {
   return uvol_test::hasWarning(nlohmann::json::parse(json), "spikes");
 }
@@ -135,10 +135,10 @@ TEST_P(OnRealData, ToolsRunAndFindTheSurface)
                                  "' -iso " + data.isovalues + " -json " + data.options);
   ASSERT_EQ(0, result.exit_code) << result.err;
   // The lowest speed of the can is 2006, so that one of its isovalues is empty.
-  EXPECT_EQ(std::string(data.file) == "cfd/can.vtu", tellsOfNone(result.out))
+  EXPECT_EQ(std::string(data.file) == "cfd/can.vtu", reportsNoneAround(result.out))
       << result.out;
   EXPECT_GT(isopointsIn(result.out), 0u) << result.out;
-  EXPECT_FALSE(tellsOfSpikes(result.out)) << result.out;
+  EXPECT_FALSE(reportsSpikes(result.out)) << result.out;
 }
 
 TEST_P(OnSmallRealData, EdgesEqualBruteForce)
@@ -244,8 +244,8 @@ TEST(RealData, MeasuresOfAThinWallAreCoveredOrNotConstrained)
                                  "/cfd/can.vtu' '" + (folder / "out.ply") +
                                  "' -field '|VEL|' -iso 3000 -mesh -measure -json");
   ASSERT_EQ(0, result.exit_code) << result.err;
-  EXPECT_TRUE(uvol_test::tellsOf(result, "unconstrained_measures"));
-  EXPECT_TRUE(uvol_test::tellsOf(result, "uncertain_measures"));
+  EXPECT_TRUE(uvol_test::hasMessage(result, "unconstrained_measures"));
+  EXPECT_TRUE(uvol_test::hasMessage(result, "uncertain_measures"));
 }
 
 class OnRealVolumes
@@ -268,8 +268,8 @@ TEST_P(OnRealVolumes, ResampledAtRandomPositions)
       runCommand("uvol_isosurface '" + samples + "' '" + (folder / "out.ply") +
                  "' -iso " + GetParam().second + " -json");
   ASSERT_EQ(0, result.exit_code) << result.err;
-  EXPECT_FALSE(tellsOfNone(result.out)) << result.out;
-  EXPECT_FALSE(tellsOfSpikes(result.out)) << result.out;
+  EXPECT_FALSE(reportsNoneAround(result.out)) << result.out;
+  EXPECT_FALSE(reportsSpikes(result.out)) << result.out;
   EXPECT_GT(isopointsIn(result.out), 0u);
 }
 

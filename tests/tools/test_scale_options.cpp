@@ -142,7 +142,7 @@ TEST_F(ScaleOptions, AreTold)
   EXPECT_EQ(std::string::npos, runCommand("uvol_info " + in_).out.find("\nscale: "));
 }
 
-TEST_F(ScaleOptions, TellHowTheScaleWasFound)
+TEST_F(ScaleOptions, ReportHowTheScaleWasFound)
 {
   const std::string job = "uvol_isosurface " + in_ + " " + (folder_ / "out.csv") +
                           " -field t -iso 0.6 -json ";

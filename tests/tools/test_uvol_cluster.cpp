@@ -155,7 +155,7 @@ TEST_F(ClusterTool, SaysThatAnAttributeIsConstant)
 {
   const auto result = run("-attributes a,b,c,d,h -json");
   EXPECT_EQ(0, result.exit_code);
-  EXPECT_TRUE(uvol_test::tellsOf(result, "constant_attribute")) << result.out;
+  EXPECT_TRUE(uvol_test::hasMessage(result, "constant_attribute")) << result.out;
   expectTruth(pcl_uvol::loadDataset(out_));
   std::remove(out_.c_str());
   expectError("-attributes h", "only_constant_attributes");
@@ -200,7 +200,7 @@ TEST_F(ClusterTool, NoiseAndMissingValuesAreCountedApart)
   expectPart(result.out, R"("noise":1)");
 }
 
-TEST_F(ClusterTool, ReportsTellSizesOfAllLabelsThatAreGiven)
+TEST_F(ClusterTool, ReportsListSizesOfAllGivenLabels)
 {
   uvol_test::writeFile(in_, tableOf("a,truth", [](const Sample& s) {
                          const int label =
@@ -238,7 +238,7 @@ TEST_F(ClusterTool, NoClusterIsNoFailure)
 {
   const auto result = run(attributes_ + "-json -min-size 200");
   EXPECT_EQ(0, result.exit_code) << result.err;
-  EXPECT_TRUE(uvol_test::tellsOf(result, "no_clusters")) << result.out;
+  EXPECT_TRUE(uvol_test::hasMessage(result, "no_clusters")) << result.out;
   const Dataset dataset = pcl_uvol::loadDataset(out_);
   EXPECT_EQ(std::vector<double>(points, -1.0), fieldOf(dataset, "label"));
   EXPECT_EQ(std::vector<double>(points, 0.0), fieldOf(dataset, "probability"));

@@ -52,7 +52,7 @@ TEST_F(ClusterTool, SurfacesAroundHullsAreBeyondTheirPoints)
     ASSERT_GT(distanceTo(1, vertex), distance - 2.0 * cell);
 }
 
-TEST_F(ClusterTool, TooSmallDistancesAreToldOf)
+TEST_F(ClusterTool, TooSmallDistancesAreReported)
 {
   const auto result = run(attributes_ + "-cluster 1 -surface distance -distance 0.05 "
                                         "-grid 300");
@@ -84,7 +84,7 @@ TEST_F(ClusterTool, MembershipPartsSamplesOfTheClusterFromOthers)
     EXPECT_NE(nullptr, pcl_uvol::findField(border.cloud.fields, field)) << field;
 }
 
-TEST_F(ClusterTool, BordersThatRunThroughGapsAreToldOf)
+TEST_F(ClusterTool, BordersThatRunThroughGapsAreReported)
 {
   for (const char* smoothing : {"", "-smoothing-length h"}) {
     const std::string told =
@@ -97,7 +97,7 @@ TEST_F(ClusterTool, BordersThatRunThroughGapsAreToldOf)
   }
 }
 
-TEST_F(ClusterTool, BordersAmongSamplesAreNotToldOf)
+TEST_F(ClusterTool, BordersAmongSamplesAreNotReported)
 {
   uvol_test::Random random(5);
   std::string csv = "x,y,z,label\n";

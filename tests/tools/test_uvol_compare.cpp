@@ -57,7 +57,7 @@ protected:
                     out_ = folder_ / "out.ply";
 };
 
-TEST_F(CompareTool, TellsDistancesBothWays)
+TEST_F(CompareTool, PrintsDistancesInBothDirections)
 {
   const CommandResult result = run(low_ + " " + high_ + " -json");
   ASSERT_EQ(0, result.exit_code) << result.err;
@@ -92,7 +92,7 @@ TEST_F(CompareTool, WarnsWhereThereAreOnlyPoints)
   const CommandResult result = run(points + " " + low_ + " " + (folder_ / "out.csv"));
   EXPECT_EQ(0, result.exit_code);
   EXPECT_NE(std::string::npos, result.out.find("a to b: mean 2,")) << result.out;
-  EXPECT_TRUE(uvol_test::tellsOf(
+  EXPECT_TRUE(uvol_test::hasMessage(
       run(points + " " + low_ + " " + (folder_ / "out.csv") + " -json"),
       "no_triangles"));
   EXPECT_EQ(1, std::count(result.err.begin(), result.err.end(), '\n')) << result.err;
@@ -111,7 +111,7 @@ TEST_F(CompareTool, Refuses)
 }
 
 /** As many as a stranger's file may have: each is not looked for among all. */
-TEST_F(CompareTool, AThousandOfVeryManyFieldsAreTold)
+TEST_F(CompareTool, AThousandOfVeryManyFieldsAreListed)
 {
   std::string names = "x,y,z", row;
   for (int i = 0; i < 20000; ++i) {
@@ -127,7 +127,7 @@ TEST_F(CompareTool, AThousandOfVeryManyFieldsAreTold)
   const Json told = uvol_test::warnedValues(report, "many_common_fields");
   ASSERT_TRUE(told.is_object());
   EXPECT_EQ(20000, told.at("fields"));
-  EXPECT_EQ(1000, told.at("told"));
+  EXPECT_EQ(1000, told.at("listed"));
 }
 
 } // namespace test_uvol_compare

@@ -92,7 +92,7 @@ TEST(UvolGenerate, LinesAreDenserAlongThanAcross)
   EXPECT_NE(std::string::npos, uvol_test::readFile(folder / "out.csv").find("DH-01"));
 }
 
-TEST(UvolGenerate, LinesThatAreLeftOutAreToldBetterThanByTheNearestSample)
+TEST(UvolGenerate, HeldOutLinesArePredictedBetterThanByTheNearestSample)
 {
   const TemporaryFolder folder;
   const std::string file = folder / "lines.csv";

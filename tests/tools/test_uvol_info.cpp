@@ -24,8 +24,8 @@ protected:
   }
 
   void
-  expectTold(const uvol_test::CommandResult& result,
-             const std::vector<std::string>& texts) const
+  expectPrinted(const uvol_test::CommandResult& result,
+                const std::vector<std::string>& texts) const
   {
     EXPECT_EQ(0, result.exit_code) << result.err;
     for (const auto& text : texts)
@@ -61,34 +61,34 @@ TEST_F(UvolInfo, WritesWhatTheSamplingIsLike)
   EXPECT_EQ(written, uvol_test::readFile(out));
 }
 
-TEST_F(UvolInfo, TellsRangesSpacingAndWhatIsMissing)
+TEST_F(UvolInfo, PrintsRangesSpacingAndWhatIsMissing)
 {
   const auto result = runOn(cloud);
-  expectTold(result,
-             {"lower corner: 500000.5 0 0",
-              "upper corner: 500003.5 0 0",
-              "1, 1, 2", // spacing
-              "1 to 10, mean 4, 1 missing",
-              "suggested isovalues",
-              "histogram of rho"});
+  expectPrinted(result,
+                {"lower corner: 500000.5 0 0",
+                 "upper corner: 500003.5 0 0",
+                 "1, 1, 2", // spacing
+                 "1 to 10, mean 4, 1 missing",
+                 "suggested isovalues",
+                 "histogram of rho"});
   EXPECT_EQ("", result.err);
 }
 
 TEST_F(UvolInfo, SelectsRowsFieldsAndColumns)
 {
-  expectTold(runOn(cloud, "-where 'rho>=2'"), {"2 to 10", "removed by where"});
-  expectTold(runOn(cloud, "-field x"), {"histogram of x"});
-  expectTold(runOn("a,b,c,d\n1,2,3,4\n5,6,7,8\n", "-xyz 1,2,3 -field a"),
-             {"lower corner: 2 3 4"});
+  expectPrinted(runOn(cloud, "-where 'rho>=2'"), {"2 to 10", "removed by where"});
+  expectPrinted(runOn(cloud, "-field x"), {"histogram of x"});
+  expectPrinted(runOn("a,b,c,d\n1,2,3,4\n5,6,7,8\n", "-xyz 1,2,3 -field a"),
+                {"lower corner: 2 3 4"});
 }
 
-TEST_F(UvolInfo, DegenerateCloudsAreTold)
+TEST_F(UvolInfo, DegenerateCloudsAreReported)
 {
-  expectTold(runOn("x,y,z,f\n"), {"has no points"});
-  expectTold(runOn("x,y,z,f\n1,2,3,4\n"), {"lower corner: 1 2 3"});
-  expectTold(runOn("x,y,z,f\nnan,0,0,4\n0,nan,0,5\n"), {"no point with finite"});
-  expectTold(runOn("x,y,z,f\n0,0,0,\n1,0,0,\n"), {"no finite value"});
-  expectTold(runOn("x,y,z\n0,0,0\n0,0,0\n"), {"duplicates"});
+  expectPrinted(runOn("x,y,z,f\n"), {"has no points"});
+  expectPrinted(runOn("x,y,z,f\n1,2,3,4\n"), {"lower corner: 1 2 3"});
+  expectPrinted(runOn("x,y,z,f\nnan,0,0,4\n0,nan,0,5\n"), {"no point with finite"});
+  expectPrinted(runOn("x,y,z,f\n0,0,0,\n1,0,0,\n"), {"no finite value"});
+  expectPrinted(runOn("x,y,z\n0,0,0\n0,0,0\n"), {"duplicates"});
 }
 
 /** The numbers x, y and z of points in a line, a sheet or a volume. */
@@ -107,14 +107,14 @@ latticeOf(int width, int height, int depth, double shift)
 TEST_F(UvolInfo, ReportsTheSharesOfTheSampling)
 {
   const std::string header = "x,y,z,a\n";
-  expectTold(runOn(header + latticeOf(10, 10, 10, 0.0)),
-             {"sampling: all around 100 %; spacing 1 to 1\n"});
+  expectPrinted(runOn(header + latticeOf(10, 10, 10, 0.0)),
+                {"sampling: all around 100 %; spacing 1 to 1\n"});
   const auto mixed =
       runOn(header + latticeOf(8, 8, 8, 0.0) + latticeOf(400, 1, 1, 1000.0));
-  expectTold(mixed, {"sampling: all around 5", " %, lines 4", " (all around)\n"});
+  expectPrinted(mixed, {"sampling: all around 5", " %, lines 4", " (all around)\n"});
   for (const char* const text : {"0.4,0.4,0.4,1\n", "0.4,0.4,0.4,1\n0.4,0.4,0.4,2\n"}) {
     const auto single = runOn(header + text);
-    expectTold(single, {"sampling: one position, no spacing\n"});
+    expectPrinted(single, {"sampling: one position, no spacing\n"});
     EXPECT_EQ(std::string::npos, single.out.find("distance to the nearest"));
   }
 }
@@ -124,8 +124,8 @@ TEST_F(UvolInfo, CountsPointsWhosePositionIsTheLargestFloat)
   for (const char* const place : {"3.4028235e38", "-3.4028235e+38", "1e300"}) {
     const auto result =
         runOn("x,y,z,a\n0,0,0,1\n1,0,0,1\n0,1,0,1\n" + std::string(place) + ",0,0,1\n");
-    expectTold(result, {"upper corner: 1 1 0", "non finite 1"});
-    expectTold(
+    expectPrinted(result, {"upper corner: 1 1 0", "non finite 1"});
+    expectPrinted(
         result,
         {"1 point has a coordinate of 3.4e38 or more, too large for float. It counts "
          "as missing."});
@@ -150,7 +150,7 @@ TEST_F(UvolInfo, JsonIsOneObject)
   EXPECT_TRUE(nlohmann::json::parse(unknown.out)["ranges"]["f"]["min"].is_null());
 }
 
-TEST_F(UvolInfo, TellsOfSeveralFilesBelowTheirNames)
+TEST_F(UvolInfo, PrintsSeveralFilesBelowTheirNames)
 {
   const std::string a = folder_ / "a.csv", b = folder_ / "b.csv";
   uvol_test::writeFile(a, cloud);
@@ -177,7 +177,7 @@ TEST_F(UvolInfo, JsonOfSeveralFilesIsAnObjectForEach)
   }
 }
 
-TEST_F(UvolInfo, FilesBehindOneThatFailsAreToldOf)
+TEST_F(UvolInfo, FilesBehindOneThatFailsArePrinted)
 {
   const std::string good = folder_ / "good.csv", field = folder_ / "other.csv";
   uvol_test::writeFile(good, cloud);
@@ -208,7 +208,7 @@ TEST_F(UvolInfo, NamesNeedNotBeUtf8)
   const auto result = runOn(latin1, "-json");
   EXPECT_EQ(0, result.exit_code) << result.err;
   EXPECT_TRUE(nlohmann::json::parse(result.out)["ranges"].contains("T \xef\xbf\xbd"));
-  expectTold(runOn(latin1), {"T \\xb0"});
+  expectPrinted(runOn(latin1), {"T \\xb0"});
 }
 
 TEST_F(UvolInfo, NamesMayDifferInABlank)
@@ -268,8 +268,8 @@ TEST_F(UvolInfo, DescribesEveryRealVolume)
     GTEST_SKIP() << "no real data";
   for (const auto& entry : std::filesystem::directory_iterator(data + "/volumes"))
     if (entry.path().extension() == ".nhdr" || entry.path().extension() == ".vtk")
-      expectTold(runCommand("uvol_info '" + entry.path().string() + "'"),
-                 {"size: ", "spacing: 1 1 1", "suggested isovalues"});
+      expectPrinted(runCommand("uvol_info '" + entry.path().string() + "'"),
+                    {"size: ", "spacing: 1 1 1", "suggested isovalues"});
 }
 
 } // namespace test_uvol_info

@@ -343,7 +343,7 @@ TEST_F(Isosurface, AnIsovalueOutsideTheRangeGivesAnEmptyFileAndAWarning)
     const std::string empty = folder_ / ("empty." + std::string(ending));
     const auto result = run(in_ + " " + empty + " -field density -iso -3 -json");
     EXPECT_EQ(0, result.exit_code);
-    EXPECT_TRUE(uvol_test::tellsOf(result, "no_isopoints")) << result.out;
+    EXPECT_TRUE(uvol_test::hasMessage(result, "no_isopoints")) << result.out;
     EXPECT_EQ(0u, pointsIn(empty)) << ending;
   }
 }

@@ -157,7 +157,7 @@ TEST_F(MeshTool, SaysWhereTrianglesAreBad)
   EXPECT_EQ(0, slivers(rough)) << rough.out;
 }
 
-TEST_F(MeshTool, StlTellsWhatItCannotHold)
+TEST_F(MeshTool, StlReportsWhatItCannotStore)
 {
   uvol_test::writeFile(in_,
                        "x,y,z,f\n5505024.25,0,0,1\n5505025.25,0,0,0\n5505024.25,1,0,0\n"
@@ -166,7 +166,7 @@ TEST_F(MeshTool, StlTellsWhatItCannotHold)
   out_ = folder_ / "out.stl";
   const CommandResult result = run("-field f -iso 0.5 -json");
   EXPECT_EQ(0, result.exit_code) << result.err;
-  EXPECT_TRUE(uvol_test::tellsOf(result, "stl_without_origin")) << result.out;
+  EXPECT_TRUE(uvol_test::hasMessage(result, "stl_without_origin")) << result.out;
 }
 
 TEST_F(MeshTool, SmoothFieldsHaveMeshesToo)

@@ -104,7 +104,7 @@ TEST_F(MeasureTool, WritesATableOfSurfacesAndPieces)
 
 /** A made or real file with an awkward property; empty where these are not there. */
 std::string
-findWildFile(const std::string& name)
+findForeignFile(const std::string& name)
 {
   const std::string path = uvol_test::dataFolder() + "/../wild/" + name;
   return std::ifstream(path).good() ? path : "";
@@ -112,7 +112,7 @@ findWildFile(const std::string& name)
 
 TEST_F(MeasureTool, NamesDebrisAndLeavesItOut)
 {
-  const std::string debris = findWildFile("made/c29_debris.csv");
+  const std::string debris = findForeignFile("made/c29_debris.csv");
   if (debris.empty())
     GTEST_SKIP() << "the folder of awkward files is not there";
   const Json all = reportOf(debris + " -field rho -iso 0.8");
@@ -139,7 +139,8 @@ TEST_F(MeasureTool, PrintsNoNumberThatIsNotFiniteOrWrapped)
   std::vector<std::string> inputs = {in_ + " -field f"};
   for (const char* const name : {"made/c22_coplanar.csv -field f",
                                  "made/c26_axes_differ.csv -field f -scale auto"})
-    if (!findWildFile(std::string(name).substr(0, std::string(name).find(' '))).empty())
+    if (!findForeignFile(std::string(name).substr(0, std::string(name).find(' ')))
+             .empty())
       inputs.push_back(uvol_test::dataFolder() + "/../wild/" + name);
   for (const std::string& input : inputs)
     for (const char* const form : {"", " -json"}) {
@@ -200,8 +201,8 @@ TEST_F(MeasureTool, MeasuresThroughAPeriodicBox)
     return runCommand("uvol_measure " + in_ + " -field rho -iso 0.4 -json -periodic " +
                       sides);
   };
-  EXPECT_FALSE(uvol_test::tellsOf(warningsOf("2,2,2"), "samples_beyond_box"));
-  EXPECT_TRUE(uvol_test::tellsOf(warningsOf("1,2,2"), "samples_beyond_box"));
+  EXPECT_FALSE(uvol_test::hasMessage(warningsOf("2,2,2"), "samples_beyond_box"));
+  EXPECT_TRUE(uvol_test::hasMessage(warningsOf("1,2,2"), "samples_beyond_box"));
   EXPECT_EQ(2, runCommand("uvol_measure " + in_ + " -iso 0.4 -periodic 2,2").exit_code);
   EXPECT_EQ(1,
             runCommand("uvol_measure " + in_ + " -field rho -iso 0.4 -periodic header")
@@ -210,7 +211,8 @@ TEST_F(MeasureTool, MeasuresThroughAPeriodicBox)
 
 TEST_F(MeasureTool, SumsMassesOfASnapshotThroughItsBox)
 {
-  const std::string snapshot = findWildFile("real/gadget4_lcdm_gas_snapshot_002.hdf5");
+  const std::string snapshot =
+      findForeignFile("real/gadget4_lcdm_gas_snapshot_002.hdf5");
   if (snapshot.empty())
     GTEST_SKIP() << "the folder of awkward files is not there";
   const Json all =
@@ -318,7 +320,7 @@ TEST_F(MeasureTool, MeasuresMeshesOfAllFormats)
   }
 }
 
-TEST_F(MeasureTool, TellsPeople)
+TEST_F(MeasureTool, PrintsAReportForPeople)
 {
   const CommandResult result = run("-field rho -iso 0.5");
   EXPECT_EQ(0, result.exit_code) << result.err;

@@ -167,7 +167,7 @@ TEST_F(ProbeTool, OutsideThereIsNoValueUnlessAskedFor)
   const std::string far = "-field cubic -line 0.5,0.5,0.5,0.5,0.5,3 -n 11";
   const auto outside = run(far + " -json");
   EXPECT_EQ(0, outside.exit_code);
-  EXPECT_TRUE(uvol_test::tellsOf(outside, "queries_outside")) << outside.out;
+  EXPECT_TRUE(uvol_test::hasMessage(outside, "queries_outside")) << outside.out;
   const Values values = fieldOf(pcl_uvol::loadDataset(out_), "cubic");
   EXPECT_FALSE(std::isnan(values[0]));
   EXPECT_TRUE(std::isnan(values[10]));
@@ -215,7 +215,7 @@ TEST_F(ProbeTool, PlanesBecomePictures)
   EXPECT_GT(image.height, 512u);
 }
 
-TEST_F(ProbeTool, SamplesLeftOutTellHowGoodItIs)
+TEST_F(ProbeTool, HeldOutSamplesShowHowGoodItIs)
 {
   const auto fit =
       reportOf("-field cubic,wave -line 0.1,0.1,0.1,0.9,0.9,0.9 -validate 5"
@@ -250,7 +250,7 @@ TEST_F(ProbeTool, ConstantsHaveNoVariogram)
   EXPECT_EQ(fieldOf(points, "same_error"), Values(5, 0.0));
 }
 
-TEST_F(ProbeTool, VariogramsAreToldWrittenAndDrawn)
+TEST_F(ProbeTool, VariogramsArePrintedWrittenAndDrawn)
 {
   const std::string outputs = " -variogram-csv " + (folder_ / "v.csv") +
                               " -variogram-png " + (folder_ / "v.png");
@@ -346,19 +346,19 @@ TEST_F(ProbeTool, FieldsMayBeExpressions)
       << mistaken.err;
 }
 
-TEST_F(ProbeTool, TellsOfValuesThatHaveNoLogarithm)
+TEST_F(ProbeTool, ReportsValuesThatHaveNoLogarithm)
 {
   const std::string plane =
       "-field wave -plane z=0.5 -size 20 -png " + (folder_ / "a.png");
   const auto logarithmic = run(plane + " -json -log");
   EXPECT_EQ(0, logarithmic.exit_code);
-  EXPECT_TRUE(uvol_test::tellsOf(logarithmic, "no_logarithms") ||
-              uvol_test::tellsOf(logarithmic, "grey_places"))
+  EXPECT_TRUE(uvol_test::hasMessage(logarithmic, "no_logarithms") ||
+              uvol_test::hasMessage(logarithmic, "grey_places"))
       << logarithmic.out;
   const auto linear = run(plane + " -json");
   EXPECT_EQ(0, linear.exit_code);
-  EXPECT_FALSE(uvol_test::tellsOf(linear, "no_logarithms") ||
-               uvol_test::tellsOf(linear, "grey_places"));
+  EXPECT_FALSE(uvol_test::hasMessage(linear, "no_logarithms") ||
+               uvol_test::hasMessage(linear, "grey_places"));
 }
 
 TEST_F(ProbeTool, RefusesNonsense)

@@ -292,7 +292,7 @@ TEST_F(RaytraceTool, RefusesWhatIsWrong)
   expectRefused((folder_ / "none.csv") + " " + picture_, 1, "none.csv");
 }
 
-TEST_F(RaytraceTool, TellsEqualWarningsOnce)
+TEST_F(RaytraceTool, PrintsEqualWarningsOnce)
 {
   uvol_test::writeFile(folder_ / "c.csv",
                        "x,y,z,rho\n0,0,0,1\n1,0,0,2\n0,1,0,3\n1,1,0,4\n");

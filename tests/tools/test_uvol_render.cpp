@@ -100,7 +100,8 @@ TEST_F(RenderTool, ColorsWithoutLightAreThoseOfTheMap)
       ++grey;
     }
   EXPECT_GT(grey, 128 * 128 / 4);
-  EXPECT_TRUE(uvol_test::tellsOf(run("-size 128 -no-shading -json"), "white_on_white"));
+  EXPECT_TRUE(
+      uvol_test::hasMessage(run("-size 128 -no-shading -json"), "white_on_white"));
   for (const char* seen :
        {"-silhouettes", "-features", "-background black", "-color normal_z"})
     EXPECT_EQ("", run(std::string("-size 128 -no-shading ") + seen).err) << seen;
@@ -300,7 +301,7 @@ TEST_F(RenderTool, OrbitsOfAllViewsGoAboutTheUpwardDirection)
   EXPECT_LT(distance(0, 2), 4.0);
 }
 
-TEST_F(RenderTool, TellsOfValuesThatHaveNoLogarithm)
+TEST_F(RenderTool, ReportsValuesThatHaveNoLogarithm)
 {
   for (const char* tool : {"uvol_render ", "uvol_raytrace "}) {
     const auto result = runCommand(tool + in_ + " " + out_ +
@@ -403,7 +404,7 @@ TEST_F(RenderTool, IsosurfaceDrawsItsResult)
   std::remove(out_.c_str());
   result = runCommand(extract + "-iso 1e9 -json");
   EXPECT_EQ(0, result.exit_code) << result.err;
-  EXPECT_TRUE(uvol_test::tellsOf(result, "nothing_to_draw")) << result.out;
+  EXPECT_TRUE(uvol_test::hasMessage(result, "nothing_to_draw")) << result.out;
   EXPECT_EQ((std::vector<std::string>{"in.ply", "out.ply", "samples.pcd"}),
             folder_.list());
   EXPECT_EQ(2, runCommand(extract + "-iso 8 -view above").exit_code);

@@ -165,7 +165,7 @@ TEST_F(VoronoiTool, DrawsSlices)
   EXPECT_EQ(200u, draw("-slices 1 -axis x").height);
 }
 
-TEST_F(VoronoiTool, TellsCountsAndShape)
+TEST_F(VoronoiTool, PrintsCountsAndShape)
 {
   const auto text = run("-grid 4");
   EXPECT_NE(std::string::npos, text.out.find("4 x 4 x 4 cells of 1 x 1 x 1"));

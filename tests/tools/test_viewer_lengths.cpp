@@ -30,7 +30,7 @@ barLength(const Image& image)
   return length;
 }
 
-TEST_F(UvolViewer, ABarTellsLengths)
+TEST_F(UvolViewer, ABarShowsLengths)
 {
   pcl_uvol::Dataset sphere;
   pcl::toPCLPointCloud2(*uvol_test::makeSphere(6000, 1), sphere.cloud);

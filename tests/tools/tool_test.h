@@ -83,7 +83,7 @@ protected:
               const std::string& value = "") const
   {
     const auto result = run(options + " -json");
-    EXPECT_TRUE(tellsOf(result, code)) << options << ": " << result.err;
+    EXPECT_TRUE(hasMessage(result, code)) << options << ": " << result.err;
     EXPECT_NE(std::string::npos, result.err.find(value))
         << options << ": " << result.err;
     expectOneSentence(options, 1, result);

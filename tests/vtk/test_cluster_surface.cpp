@@ -336,7 +336,7 @@ TEST(ClusterSurfaces, ChooseADistanceForDensePoints)
 }
 
 /** One outlier makes the grid so coarse that most points share a cell with others. */
-TEST(ClusterSurfaces, TellThatMembersShareCells)
+TEST(ClusterSurfaces, ReportThatMembersShareCells)
 {
   Points points = ballOf(2000, 4);
   Report report;

@@ -37,7 +37,7 @@ TEST(Coarseness, FramesThatComeInTimeAreFine)
   EXPECT_EQ(std::vector<int>(5, 1), drag(coarseness, 5, [](int) { return 1e9; }));
 }
 
-TEST(Coarseness, TheFirstFrameIsAsCoarseAsTheOneBeforeTells)
+TEST(Coarseness, TheFirstFrameIsAsCoarseAsTheOneBeforeRequires)
 {
   for (const auto& [time, factor] :
        {std::pair(24.0, 1), {26.0, 2}, {49.0, 2}, {51.0, 3}, {99.0, 4}, {1e6, 4}}) {

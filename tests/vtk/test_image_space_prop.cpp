@@ -242,7 +242,7 @@ TEST_P(ImageSpacePropTest, LooksAsOnTheCpu)
   EXPECT_EQ("", errors_);
 }
 
-TEST_P(ImageSpacePropTest, TellsWhatDraws)
+TEST_P(ImageSpacePropTest, ReportsWhatDraws)
 {
   EXPECT_EQ("none", prop_->describeBackend());
   shoot();
@@ -424,7 +424,7 @@ TEST_P(ImageSpacePropTest, FramesItselfWhereverItIs)
   EXPECT_EQ("", errors_);
 }
 
-TEST_P(ImageSpacePropTest, WhatItCannotDrawIsToldOnce)
+TEST_P(ImageSpacePropTest, WhatItCannotDrawIsReportedOnce)
 {
   prop_->SetScale(1.0, 2.0, 1.0);
   EXPECT_EQ(0, covered(shoot()));

@@ -37,9 +37,9 @@ public:
   void
   addTime(unsigned thinning, double milliseconds)
   {
-    const bool is_first = thinning > 1 && thinning != told_;
+    const bool is_first = thinning > 1 && thinning != reported_;
     if (thinning > 1)
-      told_ = thinning;
+      reported_ = thinning;
     if (!is_first)
       whole_ = milliseconds * shareOfWhole(thinning);
   }
@@ -71,7 +71,7 @@ private:
 
   double goal_, whole_ = 0.0; ///< milliseconds; of all samples
   unsigned thinning_ = 1;
-  unsigned told_ = 0; ///< of the last draft
+  unsigned reported_ = 0; ///< of the last draft
 };
 
 } // namespace uvol_tools

@@ -107,7 +107,7 @@ private:
   std::uint64_t total_;
   std::atomic<std::uint64_t> done_{0};
   std::mutex progress_mutex_;
-  std::uint64_t told_ = 0; // guarded by progress_mutex_
+  std::uint64_t reported_ = 0; // guarded by progress_mutex_
   std::chrono::steady_clock::time_point start_;
 };
 

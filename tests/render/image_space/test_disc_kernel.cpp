@@ -509,7 +509,7 @@ TEST(DiscKernel, BlendsNormalsThatTurnAsTheSurfaceDoes)
 const KernelTable<SideKernel> side_kernels{
     &baseline::findSides, &avx2::findSides, &avx512::findSides};
 
-TEST(SideKernel, TellsWhichSideOfWhichSurfacePixelsShow)
+TEST(SideKernel, FindsTheSideOfTheSurfaceThatPixelsShow)
 {
   TestCamera camera;
   Projection& p = camera.projection;

@@ -94,7 +94,7 @@ TEST(PreparedSurface, IsDrawnAndColoredWhileItsFootprintsAreFound)
   EXPECT_EQ(draw(own).color, drawn.color);
 }
 
-TEST(PreparedSurface, IsToldWhatItCannotDo)
+TEST(PreparedSurface, ReportsWhatItCannotDo)
 {
   const auto cloud = makeKnot(100);
   Renderer renderer;

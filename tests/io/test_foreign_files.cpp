@@ -12,9 +12,9 @@
 using namespace pcl_uvol;
 using namespace uvol_test;
 
-namespace test_wild_files {
+namespace test_foreign_files {
 
-class WildFiles : public testing::Test {
+class ForeignFiles : public testing::Test {
 protected:
   void
   SetUp() override
@@ -30,7 +30,7 @@ protected:
   }
 };
 
-TEST_F(WildFiles, SnapshotsWith64BitIdsAreWrittenAsPly)
+TEST_F(ForeignFiles, SnapshotsWith64BitIdsAreWrittenAsPly)
 {
   const Dataset snapshot =
       loadDataset(pathOf("made/c62_hdf5_unwrapped_positions.hdf5"));
@@ -46,7 +46,7 @@ TEST_F(WildFiles, SnapshotsWith64BitIdsAreWrittenAsPly)
     ASSERT_EQ(valueOf(snapshot, "ParticleIDs", i), valueOf(loaded, "ParticleIDs", i));
 }
 
-TEST_F(WildFiles, Gadget4GivesTheHubbleParameterAmongItsParameters)
+TEST_F(ForeignFiles, Gadget4GivesTheHubbleParameterAmongItsParameters)
 {
   const Dataset snapshot =
       loadDataset(pathOf("real/gadget4_lcdm_gas_snapshot_002.hdf5"));
@@ -60,7 +60,7 @@ TEST_F(WildFiles, Gadget4GivesTheHubbleParameterAmongItsParameters)
   EXPECT_NEAR(0.7, numberOf(units[0], "hubble"), 1e-6);
 }
 
-TEST_F(WildFiles, NamesWithUnitsBehindCommasAreCoordinates)
+TEST_F(ForeignFiles, NamesWithUnitsBehindCommasAreCoordinates)
 {
   const Dataset wells = loadDataset(pathOf("real/geostatsguy_res21_wells.csv"));
   EXPECT_EQ(7325.0, coordinateOf(wells, 0, 0));
@@ -74,7 +74,7 @@ TEST_F(WildFiles, NamesWithUnitsBehindCommasAreCoordinates)
   EXPECT_NEAR(-149.12, coordinateOf(points, 2, 0), 1e-4);
 }
 
-TEST_F(WildFiles, LargestFloatsAreNotPlaces)
+TEST_F(ForeignFiles, LargestFloatsAreNotPlaces)
 {
   const Dataset samples = loadDataset(pathOf("made/c65_nc_fltmax_positions.nc"));
   ASSERT_EQ(1200u, samples.cloud.width);
@@ -108,4 +108,4 @@ TEST(PcdFiles, OfOtherProgramsAreRead)
   EXPECT_THROW(loadDataset(folder / "a.pcd"), IOError);
 }
 
-} // namespace test_wild_files
+} // namespace test_foreign_files
