@@ -55,8 +55,8 @@ const MessageText error_rows[] = {
     {"no_scalar_field", "There is no scalar field; the fields are {fields}."},
     {"several_scalar_fields", "Name one of the scalar fields: {fields}."},
     {"field_of_components",
-     "The field '{field}' has {components} components. Use {field}[0] to "
-     "{field}[{last}] for one component, or |{field}| for the length."},
+     "The field '{field}' has {components} components; one number per sample is "
+     "required. Try: {field}[0] to {field}[{last}], or |{field}| for the length."},
     {"component_not_number",
      "The component in '{field}' is not a non-negative integer, for example vel[1]."},
     {"component_too_large",

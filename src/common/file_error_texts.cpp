@@ -54,10 +54,10 @@ const MessageText file_error_rows[] = {
     {"not_text_file", "it is not a text file: it contains a byte of value {byte}."},
     {"unsupported_value", "{what} is '{value}', but only {known} can be read."},
     {"packed_points",
-     "its points are packed (LAZ); laszip -i in.laz -o out.las unpacks them."},
+     "its points are packed (LAZ). Try: laszip -i in.laz -o out.las to unpack them."},
     {"houdini_12",
-     "it is a .bgeo of Houdini 12 or newer; saved by Houdini as .bhclassic it can be "
-     "read."},
+     "it is a .bgeo of Houdini 12 or newer; older ones can be read. Try: .bhclassic, "
+     "saved by Houdini."},
     {"houdini_primitives",
      "it contains curves or surfaces (primitives of kind {kind}), but only particles "
      "can be read. Try: Houdini's Add node, which keeps the points."},
@@ -66,7 +66,8 @@ const MessageText file_error_rows[] = {
      "read. {has_part|Try: name a part of it, as in file.vtkhdf:'{part}'|ParaView "
      "saves others as .vtu}."},
     {"several_times",
-     "it contains {what} of several times; ParaView saves one of them as {ending}."},
+     "it contains {what} of several times; one can be read. Try: {ending}, saved by "
+     "ParaView for one time."},
 
     // parts
     {"truncated_part", "it is truncated or damaged: {part} is not complete."},
@@ -160,7 +161,7 @@ const MessageText file_error_rows[] = {
      "'{name}' is compressed by the HDF5 filter {filter} ({id}), which is not "
      "installed. Try: h5repack -f GZIP=4 on a machine with the filter."},
     {"long_hdf5_name", "a name in it is longer than HDF5 allows."},
-    {"large_npz", "a .npz file is limited to 4 GB; .ply and .vtp files can be larger."},
+    {"large_npz", "a .npz file is limited to 4 GB. Try: .ply or .vtp."},
 
     // volumes
     {"not_scalar_volume", "it is not a volume of one number per point in 3-D."},
