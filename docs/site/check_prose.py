@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Counts what is hard to read on pages, in messages, in texts of programs, in comments of public headers and in
-docstrings: sentences of more than 30 words (28 in messages), paragraphs of more than 90 words, and words that only this
+"""Counts what is hard to read on pages, in messages, in texts of programs, in comments of public headers, in docstrings,
+in schemas and in notebooks: sentences of more than 30 words (28 in messages), paragraphs of more than 90 words, and words that only this
 project used. CONTRIBUTING.md has the style guide.
 
 usage: check_prose.py REPOSITORY [--write]
@@ -9,6 +9,7 @@ usage: check_prose.py REPOSITORY [--write]
 README, entry pages, tutorials and messages must have none. Other files have a number in docs/site/prose.txt that may
 only fall; --write writes the present numbers there. Exit code 1 if there are more, and the findings are printed."""
 import ast
+import json
 import pathlib
 import re
 import sys
@@ -152,6 +153,20 @@ def judge_program(text):
                 yield text.count("\n", 0, row.start()) + 1, found
 
 
+def judge_schema(text):
+    """Descriptions of a JSON schema."""
+    for row in re.finditer(r'"description": ("(?:[^"\\]|\\.)*")', text):
+        for found in judge(plain(json.loads(row.group(1))), MOST_WORDS):
+            yield text.count("\n", 0, row.start()) + 1, found
+
+
+def judge_notebook(text):
+    """Markdown cells, by the number of the cell."""
+    for number, cell in enumerate(json.loads(text)["cells"], 1):
+        if cell["cell_type"] == "markdown":
+            yield from ((number, found) for _, found in judge_page("".join(cell["source"])))
+
+
 def judge_public_header(text):
     """Comments that Doxygen reads, and strings, such as help texts."""
     yield from judge_header(text)
@@ -164,7 +179,8 @@ def list_sources(root):
     for name in ("README.md", "python/README.md", "CONTRIBUTING.md", "CHANGELOG.md", "SECURITY.md", "examples/README.md",
                  "tests/benchmarks/README.md"):
         yield root / name, judge_page
-    for folder, pattern, judge_file in (("docs", "*.md", judge_page), ("include", "*.h", judge_public_header),
+    for folder, pattern, judge_file in (("docs", "*.md", judge_page), ("docs/reference", "*.schema.json", judge_schema),
+                                        ("examples/notebooks", "*.ipynb", judge_notebook), ("include", "*.h", judge_public_header),
                                         ("python/pcl_uvol", "*.py", judge_docstrings), ("tools", "*.cpp", judge_program),
                                         ("tools", "*.h", judge_program), ("src", "*.cpp", judge_program)):
         for path in sorted((root / folder).rglob(pattern)):
