@@ -56,8 +56,8 @@ def update_page(text):
 
 
 def count_unmarked(text):
-    """Tables without a comment above them: those of other things than measurements have <!-- table by hand -->."""
-    marked = re.sub(r"<!-- table(: \w+| by hand) -->\n\n(\|.*\n)+", "", text)
+    """Tables without a comment above them."""
+    marked = re.sub(r"<!-- table: \w+ -->\n\n(\|.*\n)+", "", text)
     return len(re.findall(r"^\|---", marked, re.MULTILINE))
 
 
