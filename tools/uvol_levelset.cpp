@@ -97,8 +97,9 @@ run(int argc, char** argv)
       "uvol_levelset",
       "in.pcd out.ply -iso v [options]",
       "Smooth a noisy or unevenly sampled field near an isosurface by a level set.\n"
-      "Output: the field phi, about the distance to the surface in stretched space,\n"
-      "positive where values are higher.");
+      "Output: phi, roughly the distance to the surface (stretched space), positive "
+      "at\n"
+      "higher values.");
   uvol_tools::PointJob job(options, "A level set");
   declare(options, job, arguments);
   if (!options.parse(argc, argv))
