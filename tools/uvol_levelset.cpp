@@ -97,9 +97,8 @@ run(int argc, char** argv)
       "uvol_levelset",
       "in.pcd out.ply -iso v [options]",
       "Smooth a noisy or unevenly sampled field near an isosurface by a level set.\n"
-      "Output: phi, roughly the distance to the surface (stretched space), positive "
-      "at\n"
-      "higher values.");
+      "Output: phi, roughly the distance to the surface (stretched space),\n"
+      "positive at higher values.");
   uvol_tools::PointJob job(options, "A level set");
   declare(options, job, arguments);
   if (!options.parse(argc, argv))
