@@ -22,9 +22,8 @@
 
 namespace pcl_uvol {
 
-/** \brief Refers to a cloud, which must outlive it. x, y, z are consecutive floats: a
- * cloud that has them otherwise, as doubles, say, is referred to as a copy of its own.
- */
+/** \brief Refers to a cloud, which must outlive it. x, y, z are consecutive floats. If
+ * the cloud has other coordinates, for example doubles, the view refers to a copy. */
 struct PCL_UVOL_EXPORTS CloudView {
   const std::uint8_t* data = nullptr;
   std::size_t count = 0;
@@ -70,9 +69,9 @@ struct CloudBytes {
 
 /** \brief Check a layout, and lay the points out anew where x, y, z are not consecutive
  * aligned floats or rows are padded.
- * \throws InvalidArgument without x, y and z, for a field beyond the end of the points
- * or of an unknown type, for fewer bytes than points, big endian, more points than
- * PCL's indices can number */
+ * \throws InvalidArgument without x, y and z, and for a field beyond the end of the
+ * points or of an unknown type. Also for fewer bytes than points, big endian, and more
+ * points than PCL's indices can number */
 PCL_UVOL_EXPORTS CloudView
 makeView(const CloudBytes& bytes, const std::vector<pcl::PCLPointField>& fields);
 
@@ -141,7 +140,7 @@ public:
 protected:
   CloudStage() = default;
 
-  /** \brief For stages that keep what they made of the input. */
+  /** \brief For stages that keep data computed from the input. */
   virtual void
   forgetInput()
   {

@@ -18,9 +18,9 @@
 
 namespace pcl_uvol {
 
-/** \brief Names that the values of fields stand for, by the name of the field: 0 is the
- * first one, 1 the second one. They are different, in ascending order of their bytes.
- */
+/** \brief Names of the values of fields, by the name of the field: the value 0 means
+ * the first name, 1 the second one. The names differ, and are in ascending order of
+ * their bytes. */
 using LabelNames = std::map<std::string, std::vector<std::string>>;
 
 /** \brief What a file gives and takes.
@@ -57,8 +57,9 @@ struct PCL_UVOL_EXPORTS Dataset {
 /** \brief Put float32 x, y, z relative to a common origin into a dataset, in front of
  * its other fields, from coordinates in double; double_coordinates stays as it is.
  *
- * The origin of an axis is 0 where float holds every coordinate to 1e-7 of the extent
- * of that axis (of the cloud, for an axis that is flat beside it).
+ * The origin of an axis is 0 if float represents every coordinate to 1e-7 of the extent
+ * of that axis. For an axis along which the cloud is flat, the extent is that of the
+ * cloud.
  * \param xyz three numbers per point
  * \param dataset gets the fields
  * \throws InvalidArgument unless there are three per point, or if all points have

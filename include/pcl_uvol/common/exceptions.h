@@ -16,7 +16,7 @@ namespace pcl_uvol {
  * what() are the bare text, without the place that PCL puts in front. */
 class PCL_UVOL_EXPORTS Exception : public pcl::PCLException {
 public:
-  /** \param message what it tells; its text names parameters as members */
+  /** \param message code and values; its text names parameters as members */
   explicit Exception(Message message);
 
   /** \param text in words, for one that has no row in the table of messages */

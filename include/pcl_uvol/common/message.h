@@ -33,7 +33,7 @@ struct MessageValue {
   {
   }
   /** \param name_in_text lower-case words joined by underscores
-   * \param word what stands in the text */
+   * \param word the word in the text */
   MessageValue(std::string name_in_text, std::string word)
       : name(std::move(name_in_text))
       , value(std::move(word))
@@ -44,8 +44,9 @@ struct MessageValue {
   std::variant<double, std::string> value;
 };
 
-/** \brief What a run tells beside its result. Whether it warns or ends the run is said
- * by its place: Report::warnings or an exception, `warnings` or `error` in JSON. */
+/** \brief A message of a run, in addition to its result. Whether it warns or ends the
+ * run is said by its place: Report::warnings or an exception, `warnings` or `error` in
+ * JSON. */
 struct PCL_UVOL_EXPORTS Message {
   /** \brief A message of the table.
    * \param row its code in the table, which stays when the text changes
@@ -69,7 +70,7 @@ struct PCL_UVOL_EXPORTS Message {
   std::string about; ///< what the text begins with, a file for example; mostly empty
 };
 
-/** \brief Whether code, values and what they are about are equal.
+/** \brief Whether code, values and subject are equal.
  * \param a a message
  * \param b another one */
 PCL_UVOL_EXPORTS bool

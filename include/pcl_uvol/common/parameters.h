@@ -36,10 +36,10 @@ toWord(Enum value)
   return "";
 }
 
-/** \brief The value that a word stands for.
+/** \brief The value of a word.
  * \param word as toWord() writes it
- * \param value stays as it is if there is none
- * \return whether there is one */
+ * \param value unchanged if no value has this word
+ * \return whether a value has this word */
 template <typename Enum>
 bool
 fromWord(const std::string& word, Enum& value)
@@ -52,10 +52,10 @@ fromWord(const std::string& word, Enum& value)
   return false;
 }
 
-/** \brief What people are told of a member: help of tools, docstrings of Python. */
+/** \brief Description of a member for people: help of tools, docstrings of Python. */
 struct MemberText {
-  /** A phrase: what it is, its unit, and what special values mean. Names of values are
-   * those of JSON. */
+  /** A phrase: the meaning of the member, its unit, and the meaning of special values.
+   * Names of values are those of JSON. */
   const char* help = "";
   double low = -std::numeric_limits<double>::infinity(); ///< of numbers: the least
   double high = std::numeric_limits<double>::infinity(); ///< and the largest one

@@ -25,12 +25,12 @@ enum class IsoSupport : std::uint8_t {
 
 /** \brief One point of an isosurface. Lengths are in units of the coordinates.
  *
- * normal_x/y/z: unit vector to the outside, where values are lower (as for densities
- * and in VTK) unless the extraction was told otherwise; isovalue: the value the surface
- * was extracted for, in units of the scalar field; mean_curvature: 1/length, positive
- * where the enclosed side is convex, NaN where no fit gave one; error: estimated
- * distance to the true surface, NaN where there is no estimate; edge_length: distance
- * of the two samples the point lies between; support: an IsoSupport. */
+ * normal_x/y/z: unit vector to the outside, by default where values are lower (as for
+ * densities and in VTK); isovalue: the value the surface was extracted for, in units of
+ * the scalar field; mean_curvature: 1/length, positive where the enclosed side is
+ * convex, NaN where no fit gave one; error: estimated distance to the true surface, NaN
+ * where there is no estimate; edge_length: distance of the two samples the point lies
+ * between; support: an IsoSupport. */
 struct EIGEN_ALIGN16 PointIso {
   PCL_ADD_POINT4D;
   PCL_ADD_NORMAL4D;
@@ -63,8 +63,8 @@ struct EIGEN_ALIGN16 PointIso {
 
 /** \brief First derivatives of a scalar field, per unit of length, and the mean
  * curvature of its level set, half the divergence of the normalised gradient: 1/length,
- * positive where the level set bulges towards higher values of the field. NaN where
- * there are none. */
+ * positive where the level set bulges towards higher values of the field. NaN where no
+ * derivatives are available. */
 struct PointGradient {
   float gradient_x, gradient_y, gradient_z;
   float mean_curvature;
@@ -76,15 +76,16 @@ struct PointGradient {
   }
 };
 
-/** \brief A disc that stands for a piece of a surface, with a linear field of normals
+/** \brief A disc that covers a part of a surface, with a linear field of normals
  * (thesis 4.2.1).
  *
  * x, y, z: centre; normal_x/y/z: unit normal of its plane, to the outside; radius: a
  * length; error: largest distance of the points that it covers to its plane, a length;
  * tangent_x/y/z: unit vector u in the plane, the direction in which the normals turn
- * most or least, v is the normal times u. Normals at (u, v), in radii from the centre,
- * are normal + (tilt_u + slope_u u) u + (tilt_v + slope_v v) v, not of unit length
- * (equation 4.1 with slope = lambda r, and with the centre's normal free). */
+ * most or least, v is the normal times u. The normal at (u, v), in radii from the
+ * centre, is normal + (tilt_u + slope_u u) u + (tilt_v + slope_v v) v. It does not have
+ * unit length (equation 4.1 with slope = lambda r, and with the centre's normal free).
+ */
 struct EIGEN_ALIGN16 PointSplat {
   PCL_ADD_POINT4D;
   PCL_ADD_NORMAL4D;

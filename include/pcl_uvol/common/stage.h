@@ -17,10 +17,10 @@
 
 namespace pcl_uvol {
 
-/** \brief Told while a stage runs: the name of the step and the part of it that is
- * done, in [0, 1]. Called from the stage's threads, one at a time, at most some hundred
- * times per step. An exception that it throws ends the stage and reaches the stage's
- * caller: the way to interrupt it. */
+/** \brief Called while a stage runs, with the name of the step and the part of it that
+ * is done, in [0, 1]. Called from the stage's threads, one at a time, at most some
+ * hundred times per step. An exception that it throws ends the stage and reaches the
+ * stage's caller: the way to interrupt it. */
 using ProgressCallback = std::function<void(const std::string& step, double done)>;
 
 /** \brief Counts (samples used, non-finite, duplicates, ...), wall-clock times and
@@ -30,7 +30,7 @@ struct PCL_UVOL_EXPORTS Report {
   std::vector<std::pair<std::string, double>> milliseconds;
   /** What the user should know although the run succeeded. */
   std::vector<Message> warnings;
-  /** Empty: nobody is told. */
+  /** Called with the progress; empty: no calls. */
   ProgressCallback progress;
 
   /** \brief Add to the count of that name; a new name starts at 0.
@@ -52,7 +52,7 @@ struct PCL_UVOL_EXPORTS Report {
   void
   setCount(const std::string& name, std::uint64_t value);
 
-  /** \brief The count of that name, 0 if there is none.
+  /** \brief The count of that name, 0 if it does not exist.
    * \param name as of count() */
   std::uint64_t
   getCount(const std::string& name) const;
@@ -87,7 +87,7 @@ private:
  * report, what is done of it to the report's progress. */
 class PCL_UVOL_EXPORTS StepTimer {
 public:
-  /** \param total work of the step, in any unit; 0: its progress is not told
+  /** \param total work of the step, in any unit; 0: its progress is not reported
    * \param report gets the time; must outlive the timer
    * \param step name of the step */
   StepTimer(Report& report, std::string step, std::uint64_t total = 0);
@@ -128,7 +128,8 @@ public:
     return threads_;
   }
 
-  /** \brief Told while the stage runs; see ProgressCallback. Default: nobody is. */
+  /** \brief Set a function that is called while the stage runs; see ProgressCallback.
+   * Default: no calls. */
   void
   setProgressCallback(const ProgressCallback& progress)
   {
@@ -146,7 +147,7 @@ protected:
   Stage() = default;
   ~Stage() = default;
 
-  /** \brief An empty report that tells the stage's progress. */
+  /** \brief An empty report that passes on the stage's progress. */
   void
   startReport()
   {

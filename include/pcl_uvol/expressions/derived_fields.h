@@ -61,23 +61,27 @@ struct PCL_UVOL_EXPORTS DerivedFieldOptions {
 
 /** \brief Make sure that a data set has a field.
  *
- * A name that ScalarField knows stays what it is. Any other is an expression of
- * muParser (numbers, + - * / ^, comparisons, && || !, ?:, functions such as log10, ln,
- * exp, sqrt, abs, sin, atan2, min, max, sum), in which fields stand under their names
- * or between double quotes, `vel[1]` is a component, `|vel|` and `|a,b,c|` are lengths,
- * `x`, `y`, `z` coordinates with the origin added, `pi` and `inf` constants, and f
- * below stands for an expression, v for a field of three components, the three
- * components themselves (`Q(vx,vy,vz)`), or grad and curl: grad(f); curl(v); div(v);
- * laplacian(f); curvature(f), the mean curvature of the level sets of f, half the
- * divergence of the normalised gradient (thesis 3.6); Q(v), minus half the trace of the
- * squared gradient (Hunt et al. 1988); lambda2(v), the middle eigenvalue of S^2 + W^2
- * of the symmetric and the antisymmetric part of the gradient (Jeong and Hussain 1995).
- * Derivatives are per unit of length, of the fits of detail::computeDerivatives.
+ * A name that ScalarField knows is that field. Any other text is an expression of
+ * muParser: numbers, + - * / ^, comparisons, && || !, ?:, and functions such as log10,
+ * ln, exp, sqrt, abs, sin, atan2, min, max and sum. In an expression
+ * - fields have their names, or their names between double quotes;
+ * - `vel[1]` is a component, `|vel|` and `|a,b,c|` are lengths;
+ * - `x`, `y`, `z` are coordinates with the origin added, `pi` and `inf` constants;
+ * - grad(f), curl(v), div(v) and laplacian(f) are derivatives;
+ * - curvature(f) is the mean curvature of the level sets of f, half the divergence of
+ * the normalised gradient (thesis 3.6);
+ * - Q(v) is minus half the trace of the squared gradient (Hunt et al. 1988);
+ * - lambda2(v) is the middle eigenvalue of S^2 + W^2, of the symmetric and the
+ * antisymmetric part of the gradient (Jeong and Hussain 1995).
  *
- * What an expression gives is added as a float64 field of the expression's own text,
- * without blanks around it, and without double quotes where it means the same without
- * them. It is NaN where a field that it needs is missing, and where the result is no
- * finite number. A field's name between double quotes is that field.
+ * Here f is an expression. v is a field of three components, three components
+ * (`Q(vx,vy,vz)`), or a grad or curl. Derivatives are per unit of length, of the fits
+ * of detail::computeDerivatives.
+ *
+ * The result is added as a float64 field whose name is the text of the expression,
+ * without blanks around it, and without double quotes that are not needed. It is NaN
+ * where a field that it needs is missing, and where the result is not finite. A field's
+ * name between double quotes is that field.
  * \param dataset gets the field
  * \param expression name of a field, or what to compute
  * \param options threads, the box, and why there are no derivatives
@@ -85,7 +89,8 @@ struct PCL_UVOL_EXPORTS DerivedFieldOptions {
  * \param report gets the time "derived_fields", and warnings that say where an
  * expression has no value
  * \throws ExpressionError, and InvalidArgument where there are fewer than four samples
- * for derivatives, or none are to be had, or a side of the box is none */
+ * for derivatives, if derivatives are not available, or for an invalid side of the box
+ */
 PCL_UVOL_EXPORTS std::string
 addDerivedField(Dataset& dataset,
                 const std::string& expression,
@@ -96,11 +101,11 @@ addDerivedField(Dataset& dataset,
  * see addDerivedField; = and == mean the same. NaN satisfies nothing but !=. A field
  * that is compared with a number is compared with the float nearest to it where the
  * field is float32. A field of names, see Dataset::labels, is compared by = and != with
- * a name, `hole="A-117"`, whose quotes may be left out; `hole=""` stands for none.
+ * a name, `hole="A-117"`, whose quotes may be left out; `hole=""` means no name.
  * \param dataset loses the other points
  * \param where the expression
  * \param options as of addDerivedField()
- * \param report tells the progress of derivatives
+ * \param report gets the progress of derivatives
  * \return the number of points removed
  * \throws as addDerivedField, and for an expression without a comparison */
 PCL_UVOL_EXPORTS std::size_t

@@ -35,7 +35,7 @@ toPointCloud(vtkDataSet* data);
 PCL_UVOL_EXPORTS vtkSmartPointer<vtkPolyData>
 fromPointCloud(const Dataset& dataset);
 
-/** \brief The same for a cloud of any layout; fields of equal names are told apart.
+/** \brief The same for a cloud of any layout; fields of equal names are renamed.
  * \param cloud with x, y, z
  * \throws InvalidArgument without x, y, z, for coordinates beyond float, and for
  * incomplete data */

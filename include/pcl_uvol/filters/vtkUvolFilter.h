@@ -26,10 +26,10 @@ struct PointArrays;
  * and names of components; active normals are called Normals. Coordinates in double
  * stay in double. Input without points gives output without points.
  *
- * Bad input gives an ErrorEvent in one sentence and an empty output, and what a report
- * warns of a WarningEvent. Progress is told from the thread that updates the pipeline;
- * SetAbortExecute in an observer of it ends the run with an empty output. The same
- * input gives the same bytes on any number of threads. */
+ * Bad input gives an ErrorEvent in one sentence and an empty output. Each warning of a
+ * report gives a WarningEvent. Progress is reported from the thread that updates the
+ * pipeline; SetAbortExecute in an observer of it ends the run with an empty output. The
+ * same input gives the same bytes on any number of threads. */
 class PCL_UVOL_EXPORTS vtkUvolFilter : public vtkPolyDataAlgorithm {
 public:
   vtkAbstractTypeMacro(vtkUvolFilter, vtkPolyDataAlgorithm);

@@ -39,8 +39,8 @@ public:
   vtkGetMacro(Isovalue, double);
   /** @} */
 
-  /** \brief The component of an array of several components, from 0; -1: their length.
-   * Default 0. @{ */
+  /** \brief The zero-based component of an array of several components; -1: their
+   * length. Default 0. @{ */
   vtkSetClampMacro(ArrayComponent, int, -1, VTK_INT_MAX);
   vtkGetMacro(ArrayComponent, int);
   /** @} */

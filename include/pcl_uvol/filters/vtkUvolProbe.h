@@ -97,9 +97,9 @@ public:
   vtkBooleanMacro(Extrapolate, vtkTypeBool);
   /** @} */
 
-  /** \brief Where the source has cells of three dimensions, let them say where the data
-   * are: inside of one there is a value, outside of all there is none. Default on. @{
-   */
+  /** \brief If the source has cells of three dimensions, they decide where the data
+   * are: positions inside of a cell have a value, positions outside of all cells have
+   * no value. Default on. @{ */
   vtkSetMacro(CellMask, vtkTypeBool);
   vtkGetMacro(CellMask, vtkTypeBool);
   vtkBooleanMacro(CellMask, vtkTypeBool);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How good a model is, told by samples that were left out: folds of samples, and the
+// Accuracy of a model on held-out samples: folds of samples, and the
 // errors of fields interpolated from the others.
 #pragma once
 
@@ -23,7 +23,8 @@ namespace pcl_uvol {
 class PCL_UVOL_EXPORTS Folds {
 public:
   /** \brief Every point at random. Good for evenly spread samples; where samples follow
-   * one another closely, as along a track, the others tell too much.
+   * one another closely, as along a track, each held-out sample has a neighbour that is
+   * not held out.
    * \param count of points
    * \param folds 2 to count
    * \throws InvalidArgument for folds out of range */
@@ -70,15 +71,15 @@ private:
   std::vector<std::uint32_t> fold_of_;
 };
 
-/** \brief How a field was interpolated at points that were left out. */
+/** \brief How well a field was interpolated at held-out samples. */
 struct FieldScore {
   std::string field;
   std::size_t tested = 0;  ///< points with a value
   std::size_t covered = 0; ///< of these, those that got one: the others lie outside
   double rms = 0.0;        ///< root mean squared error, in units of the field
   double bias = 0.0;       ///< mean error: interpolated less measured
-  double share = 0.0;      ///< of the points, those no farther off than their error;
-                           ///< NaN where the model tells none
+  double share = 0.0;      ///< proportion of errors within the estimated error;
+                           ///< NaN if the model does not estimate errors
 };
 
 /** \brief Interpolate at the points of each fold from those of the others.
@@ -101,7 +102,7 @@ crossValidate(const CloudView& cloud,
               unsigned threads,
               Report& report);
 
-/** \brief How far a model was off at samples that were left out. */
+/** \brief Error of a model at held-out samples. */
 struct ModelScore {
   InterpolationModel model;
   /** Root mean squared error by the standard deviation of the measured values; over
@@ -116,17 +117,17 @@ struct ModelChoice {
 };
 
 /** \brief Compare models by cross-validation, on a sample of folds: 3 of 10, 2000
- * points each. Folds are random; where most samples lie on lines or sheets, blocks:
- * neighbours on the line would tell nothing of what lies beside it.
+ * points each. Folds are random. If most samples are on lines or sheets, folds are
+ * blocks, because neighbours on the same line would make every model look good.
  *
  * The models are fit, natural, kriging, shepard and nearest, and sph where the
  * parameters name a field of particles. They are compared where all of them have a
- * value; a model that has none at half of the points is left out, and so is one that
- * cannot be made of these samples.
+ * value. A model without values at half of the points is left out, and so is one that
+ * these samples do not allow.
  *
  * \param parameters of the models; which model they name does not matter
  *
- * \param report gets a warning for fewer than 10 samples, which are no choice: fit
+ * \param report gets a warning for fewer than 10 samples, too few to choose: fit
  *
  * \param cloud the samples
  * \param indices points to take part
@@ -139,7 +140,7 @@ chooseModel(const CloudView& cloud,
             unsigned threads,
             Report& report);
 
-/** \brief The same on folds of one's own, such as drill holes: 3 of them.
+/** \brief The same on given folds, such as drill holes: 3 of them.
  *
  * \param cloud the samples
  * \param indices points to take part
@@ -164,22 +165,24 @@ struct ScaleChoice {
    * and in the original one. @{ */
   double explained = 0.0, explained_before = 0.0;
   /** @} */
-  /** Mean error at samples that were left out, by that with factors of 1: of the roots
-   * of absolute errors, so that a few large ones do not decide. */
+  /** Mean error at held-out samples, divided by that with factors of 1. It is the mean
+   * of the roots of absolute errors, so that a few large errors do not decide. */
   double error_ratio = 1.0;
-  std::size_t tested = 0; ///< samples left out
+  std::size_t tested = 0; ///< held-out samples
 };
 
 /** \brief Find the scale of a field from its samples.
  *
- * Pairs of samples of all parts of the cloud tell how the difference of two values
- * grows with the distance along each axis, a variogram in every direction; the factors
- * are sought that make it one function of the stretched distance. They are then tried,
- * and factors between them and 1, at samples that are left out with all others that are
- * nearer than gaps of the sampling are wide. Factors of 1 are taken unless others lower
- * the error there by a tenth and clearly so: where the field changes alike along all
- * axes, where samples are dense enough for it not to matter, and where nothing is to be
- * told, for noise and for few samples. Takes the time of a tree.
+ * Pairs of samples of all parts of the cloud show how the difference of two values
+ * grows with the distance along each axis: a variogram in every direction. The factors
+ * are those with which these variograms become the same function of the stretched
+ * distance.
+ *
+ * These factors, and some between them and 1, are then tested on held-out samples. With
+ * each of these, all samples nearer than the width of the gaps are held out. Factors of
+ * 1 are used unless others lower the error by at least a tenth, and by more than chance
+ * explains. So factors stay 1 if the field changes equally fast along all axes, if
+ * samples are dense, noisy or few. Takes the time of a tree.
  *
  * \param cloud the samples
  * \param indices points to take part

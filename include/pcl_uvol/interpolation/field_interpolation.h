@@ -42,7 +42,7 @@ struct PCL_UVOL_EXPORTS InterpolatedFields {
   std::size_t size = 0;           ///< queries
   std::vector<double> values;     ///< [field][query], in units of the field; NaN: none
   std::vector<double> errors;     ///< [field][query], standard errors of the values;
-                                  ///< NaN where the model tells none; empty if not
+                                  ///< NaN if not available; empty if not
                                   ///< asked for
   std::vector<double> gradients;  ///< [field][query][axis], field / length; empty if
                                   ///< not asked for
@@ -57,8 +57,8 @@ struct PCL_UVOL_EXPORTS InterpolatedFields {
     return values[field * size + query];
   }
 
-  /** \brief A standard error, in units of the field; NaN where the model
-   * tells none. Errors must have been asked for.
+  /** \brief A standard error, in units of the field; NaN where the model does not
+   * estimate them. Errors must have been requested.
    * \param field index into names
    * \param query below size */
   double
@@ -117,9 +117,10 @@ public:
   operator=(const FieldInterpolator&) = delete;
   ~FieldInterpolator();
 
-  /** \brief Let cells decide where the data are instead of the samples: inside of one
-   * there is a value, of FieldSupport::Bridged where samples alone would say Outside;
-   * outside of all there is none unless extrapolated.
+  /** \brief Let cells decide where the data are instead of the samples. Positions
+   * inside of a cell have a value, with FieldSupport::Bridged if they are outside by
+   * the samples alone. Positions outside of all cells have no value unless
+   * extrapolated.
    * \param cells of the same samples; null: the samples decide */
   void
   setCells(std::shared_ptr<const SampleCells> cells)
@@ -143,9 +144,8 @@ public:
   using TakeAnswers =
       std::function<void(std::size_t first, const InterpolatedFields& answers)>;
 
-  /** \brief Answer queries whose places are told when they are needed, as those of a
-   * lattice, in their order and some at a time, so that memory does not grow with them.
-   */
+  /** \brief Answer queries whose positions are requested in blocks, in their order, for
+   * example those of a lattice. So memory does not grow with their number. */
   void
   interpolate(std::size_t queries,
               const PlaceOf& place_of,
@@ -153,8 +153,8 @@ public:
               Report& report,
               const TakeAnswers& take) const;
 
-  /** \brief The variogram of a field and what it was fitted to, in its units and those
-   * of the stretched space; none where the model has none. */
+  /** \brief The variogram of a field, and the experimental variogram, in units of the
+   * field and of the stretched space. Empty if the model has no variogram. */
   std::optional<FittedVariogram>
   findVariogram(std::size_t field) const;
 
@@ -208,8 +208,8 @@ public:
   using Ptr = std::shared_ptr<FieldInterpolation<PointT>>;
   using ConstPtr = std::shared_ptr<const FieldInterpolation<PointT>>;
 
-  /** \brief Any fields of the cloud, see ScalarField; default: none, which stands for
-   * the one of ScalarField::defaultName. */
+  /** \brief Any fields of the cloud, see ScalarField; default: no names, which means
+   * the field of ScalarField::defaultName. */
   void
   setFields(const std::vector<std::string>& fields)
   {

@@ -43,7 +43,7 @@ enum class InterpolationModel {
   /** Sums of smoothing kernels over particles with their own smoothing lengths and
    * masses. */
   Sph,
-  /** The one of these that is nearest to samples left out, see chooseModel. */
+  /** The most accurate of these models on held-out samples, see chooseModel. */
   Auto
 };
 
@@ -169,7 +169,7 @@ listWords(SphKernel)
 /** \brief Parameters of InterpolationModel::Sph. */
 struct PCL_UVOL_EXPORTS SphParameters {
   SphKernel kernel = SphKernel::CubicSpline;
-  /** Divide by the same sum of ones: constants stay what they are. */
+  /** Divide by the same sum of ones, so that constants are exact. */
   bool normalized = true;
   /** Field of the smoothing lengths h, in units of length. Where it is empty, and for
    * particles without a positive value, the kernel ends at the k-th nearest neighbour.

@@ -19,16 +19,16 @@ namespace pcl_uvol {
 
 /** \brief How a file is read. */
 struct PCL_UVOL_EXPORTS LoadOptions {
-  /** Columns that hold the coordinates of a text file, by their names or their numbers
-   * from 0; empty: they are found by usual names, as x, y, z, or x_km, y_km, z_km, or
+  /** Columns of the coordinates of a text file, by their names or their zero-based
+   * numbers; empty: they are found by usual names, as x, y, z, or x_km, y_km, z_km, or
    * easting, northing, elevation. */
   std::array<std::string, 3> xyz_columns;
   /** False: a text file whose header names no coordinates is taken for data without
    * positions. */
   bool needs_coordinates = true;
   /** False: a note says that distances mix degrees of longitude and latitude, or
-   * different units of length, as names of columns tell. Nobody minds where axes get
-   * factors before distances are measured, or none are. */
+   * different units of length, by the names of columns. True: no such note, because
+   * distances are scaled or not used. */
   bool may_mix_units = false;
   /** The kind of particles that is read from a snapshot, by its name (gas, dm, disk,
    * bulge, stars, bh, of Phantom boundary, dust) or its number; empty: gas, or the
@@ -37,14 +37,15 @@ struct PCL_UVOL_EXPORTS LoadOptions {
   /** The centres of cells in VTK's files, with the data of cells, are read instead of
    * points. VTK's own readers do it, which believe what a file says. */
   bool cells = false;
-  /** Told of "read", but not by what VTK reads. Default: nobody is. */
+  /** Called with the progress of "read", except for files that VTK reads. Default: no
+   * calls. */
   ProgressCallback progress = {};
   /** The map that longitude and latitude are put on, so that several files have one
    * coordinate system; its members that are not set are chosen by the file. Not set:
    * files of NetCDF choose their map, and the coordinates of all others stay as they
    * are. With a map, also tables of longitude, latitude and a height or depth are
-   * mapped, and points with such fields, as surfaces have them, are put where their
-   * longitude and latitude say. */
+   * mapped. Points with fields of longitude and latitude, as surfaces have them, are
+   * moved to the positions that these give. */
   std::optional<MapProjection> map = {};
 };
 
@@ -54,14 +55,15 @@ struct PCL_UVOL_EXPORTS SaveOptions {
   bool ascii = false;
   /** Comment lines for formats that have them (PCD, PLY, CSV has none). */
   std::vector<std::string> comments;
-  /** Told of "write", where points are written as text. Default: nobody is. */
+  /** Called with the progress of "write", if points are written as text. Default: no
+   * calls. */
   ProgressCallback progress = {};
 };
 
-/** \brief Read points from .pcd, .ply, .csv, .txt, .xyz, .dat, .tsv, .vtk, .vtp, .vtu,
- * .vts or HDF5 (.h5, .hdf5, .h5part, .vtkhdf), by the ending of the name (any case),
- * and from binary snapshots of Gadget, whatever their name. Non-finite positions are
- * kept.
+/** \brief Read points from a file. The ending of its name (any case) selects the
+ * format: .pcd, .ply, .csv, .txt, .xyz, .dat, .tsv, .vtk, .vtp, .vtu, .vts or HDF5
+ * (.h5, .hdf5, .h5part, .vtkhdf). Binary snapshots of Gadget can have any name.
+ * Non-finite positions are kept.
  *
  * Names that end in .gz, .bz2 or .zst are unpacked into a temporary file (in TMPDIR),
  * "-" is standard input. Arrays of NumPy (.npy, .npz), laser scans (.las) and particles
@@ -117,8 +119,8 @@ writeAtomically(const std::string& path,
 PCL_UVOL_EXPORTS void
 removeUnfinishedFiles();
 
-/** \brief The file that a name stands for: its links followed, also to a file that is
- * not there yet; the name itself where its folder is not there.
+/** \brief The file that a name refers to: links are followed, also to a file that does
+ * not exist yet. If the folder does not exist, the name itself.
  * \param path may name no file */
 PCL_UVOL_EXPORTS std::string
 resolveLinks(const std::string& path);

@@ -13,7 +13,7 @@
 
 namespace pcl_uvol {
 
-/** \brief A keyword of at most 79 characters, such as "Software", and what it says. */
+/** \brief A keyword of at most 79 characters, such as "Software", and its text. */
 using ImageText = std::pair<std::string, std::string>;
 
 /** \brief The bytes of an image as a PNG file, with opacity where a pixel is not

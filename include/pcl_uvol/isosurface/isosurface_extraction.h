@@ -128,16 +128,16 @@ struct IsoEdge {
 /** \brief One edge per isopoint, in the order of the isopoints. */
 using IsoEdges = std::vector<IsoEdge>;
 
-/** \brief What tells how far a surface can be believed, over all of its isovalues.
- * Parts of a surface, of pieces or processes, are added up. */
+/** \brief Counts that show how far to trust a surface, over all of its isovalues. The
+ * counts of pieces or processes are added. */
 struct PCL_UVOL_EXPORTS SurfaceTally {
   std::uint64_t crossing = 0; ///< samples that touch one on the other side
   std::uint64_t spikes = 0;   ///< of these, those whose values stand alone
   /** Isopoints that Interpolation::Auto removed, as the samples around are all on one
    * side. */
   std::uint64_t contradicted = 0;
-  /** Linear isopoints whose support fits told, at most 1024 of an isovalue, and those
-   * of support Bridged and Rim. @{ */
+  /** Linear isopoints whose support was found from fits, at most 1024 of an isovalue,
+   * and those of support Bridged and Rim. @{ */
   std::uint64_t examined = 0, examined_bridged = 0, examined_rim = 0;
   /** @} */
 
@@ -175,8 +175,8 @@ interpolateFields(const pcl::PCLPointCloud2& samples,
                   pcl::PCLPointCloud2& isopoints,
                   unsigned threads = 0);
 
-/** \brief The same for points that stand for one point of another cloud each: the
- * fields that they lack are copied.
+/** \brief The same for points each of which corresponds to one point of another cloud:
+ * missing fields are copied.
  * \param sources index of the other point, one per point
  * \param cloud that has the fields
  * \param points get them
@@ -364,7 +364,7 @@ private:
   void
   updateCandidates();
 
-  /** The scalar in leaf order and its range per node, and what they were read from. */
+  /** The scalar in leaf order, its range per node, and their source. */
   struct Scalar;
 
   std::shared_ptr<const Scalar> scalar_;
@@ -390,16 +390,15 @@ private:
  * pcl::PointCloud<PointIso> surface;
  * extraction.extract(surface);
  * \endcode
- * Neighbours are approximate natural neighbours (thesis 2.2, 2.3), an isopoint belongs
- * to every edge whose ends lie on different sides of the isovalue (2.4). By default it
- * lies on the zero level of a polynomial of degree 3 or 2 fitted to its 40 nearest
- * samples, where these lie in layers or lines the 40 nearest in a local metric, which
- * also gives normal, mean curvature and error; where a fit does not serve it stays
- * where linear interpolation along the edge puts it, with the edge's outside vector. A
- * value equal to the isovalue counts as above. Linear isopoints that fall together are
- * merged. The tree is built once per cloud: further isovalues, fields, and values that
- * were changed in place reuse it.
- * Memory: about 60 bytes per sample besides the cloud.
+ * Neighbours are approximate natural neighbours (thesis 2.2, 2.3). Every edge whose
+ * ends are on different sides of the isovalue has an isopoint (2.4). By default it is
+ * on the zero level of a polynomial of degree 3 or 2 fitted to its 40 nearest samples.
+ * If these are in layers or lines, the fit is to the 40 nearest in a local metric. The
+ * fit also gives normal, mean curvature and error. If no fit is usable, the isopoint
+ * stays at the linear root on the edge, with the edge's outside vector. A value equal
+ * to the isovalue counts as above. Linear isopoints that coincide are merged. The tree
+ * is built once per cloud: further isovalues, fields, and values that were changed in
+ * place reuse it. Memory: about 60 bytes per sample besides the cloud.
  * \tparam PointT any registered point type with x, y, z, or pcl::PCLPointCloud2 */
 template <typename PointT>
 class IsosurfaceExtraction : public CloudStage<PointT>,
@@ -411,9 +410,9 @@ public:
 
   /** \brief Extract the isopoints of all isovalues.
    *
-   * Samples with a non-finite coordinate or scalar are left out, exact duplicates
-   * merged: their value is the median, of an even number the mean of the two in the
-   * middle, which lies between two classes; the fields that isopoints carry, this one
+   * Samples with a non-finite coordinate or scalar are left out, and exact duplicates
+   * are merged. Their value is the median, of an even number the mean of the two
+   * central values, which can be between two classes. The fields of isopoints, this one
    * as well, come from the first point that has the lower of these. Both are counted.
    * An isovalue outside the range of the values gives no points and a warning in the
    * report.
@@ -423,12 +422,12 @@ public:
    *
    * Counts of the report: samples, no_value, non_finite, duplicates,
    * conflicting_duplicates, spikes (samples whose values are unlike those of all around
-   * them), crossing_samples, edges, coincident, isopoints; with Interpolation::Fit
-   * cubic_roots, quadratic_roots, and linear_singular, linear_step, linear_far for
-   * isopoints whose linear root stayed because the fit is singular or fails, the values
-   * step, or the fit leaves the edge's surroundings; bridged and rim by support. With
-   * Interpolation::Auto contradicted: isopoints that were removed, if there were any.
-   */
+   * them), crossing_samples, edges, coincident, isopoints; bridged and rim by support.
+   * With Interpolation::Fit also cubic_roots, quadratic_roots, and isopoints that stay
+   * at their linear root: linear_singular (the fit is singular or fails), linear_step
+   * (the values jump), linear_far (the root is far from the edge). With
+   * Interpolation::Auto also contradicted: isopoints that were removed, if there are
+   * any. */
   void
   extract(pcl::PointCloud<PointIso>& isopoints);
 

@@ -28,7 +28,7 @@ public:
 namespace detail {
 
 /** \brief The kernel of LevelSetEvolution for any cloud.
- * \param snapshot told after every snapshot_steps steps; 0: never
+ * \param snapshot called after every snapshot_steps steps; 0: never
  * \param is_examined whether the surface is examined, see
  * LevelSetEvolution::setExamined
  * \throws InvalidArgument, Diverged as LevelSetEvolution::evolve */
@@ -55,10 +55,11 @@ addPhi(const CloudView& cloud,
 /** \brief A smooth level-set function of a scalar field at scattered points.
  *
  * Evolves thesis (3.7), d phi / dt = (mu (f - f_iso - phi) + (1 - mu) kappa) |grad
- * phi|, where f - f_iso is divided by its slope, so that phi is about the distance to
- * the surface, positive where f is above the isovalue, and mu means the same for every
- * data set; of densities that vary by decades the logarithm stands for f (see
- * LevelSetSummary::logarithmic). Extract its zero level with IsosurfaceExtraction.
+ * phi|. Here f - f_iso is divided by its slope. So phi approximates the distance to the
+ * surface, positive where f is above the isovalue, and mu has the same meaning for
+ * every data set. The logarithm replaces f for densities that vary by orders of
+ * magnitude (see LevelSetSummary::logarithmic). Extract its zero level with
+ * IsosurfaceExtraction.
  *
  * \code
  * pcl_uvol::LevelSetEvolution<pcl::PointXYZI> evolution;
@@ -300,10 +301,10 @@ public:
     return parameters_.band_width;
   }
 
-  /** \brief Whether evolve(), where samples do not lie all around, looks at what the
-   * surface rests on: getTally() and the report then count how many isopoints on edges
-   * were looked at, at most 1024, and those in gaps and on rims, as examined,
-   * examined_bridged and examined_rim. Default: not. */
+  /** \brief Whether evolve() examines the support of the surface if samples are not all
+   * around. getTally() and the report then have three counts: examined (isopoints on
+   * edges, at most 1024), and examined_bridged and examined_rim of these. Default:
+   * false. */
   void
   setExamined(bool is_examined)
   {
@@ -317,9 +318,10 @@ public:
     return is_examined_;
   }
 
-  /** \brief Told after every so many steps of evolve(); 0 (default): nobody is.
+  /** \brief Set a function that is called after every so many steps of evolve(); 0
+   * (default): no calls.
    * \param steps between two calls
-   * \param snapshot what is told, see SnapshotCallback */
+   * \param snapshot the function, see SnapshotCallback */
   void
   setSnapshotCallback(std::size_t steps, const SnapshotCallback& snapshot)
   {
@@ -339,15 +341,15 @@ public:
    *
    * Counts of the report: samples, no_value, non_finite, duplicates,
    * conflicting_duplicates, band_samples, isotropic_fits, steps, updates (times that a
-   * sample was advanced), band_updates, reinitializations, outliers (values unlike
-   * those of all neighbours, which are replaced), lost_samples (farther from the
-   * surface than noise explains, and on its other side in the end). */
+   * sample was advanced), band_updates and reinitializations. Also outliers (values
+   * unlike those of all neighbours, which are replaced) and lost_samples. These end on
+   * the other side of the surface, farther from it than noise explains. */
   void
   evolve(std::vector<float>& phi);
 
   /** \brief The same as a cloud of the points in the indices: x, y, z, phi and all
-   * other fields of the input, of which one called phi gives way, with a warning.
-   * \param cloud what comes of it */
+   * other fields of the input, but not one called phi, with a warning.
+   * \param cloud the result */
   void
   evolve(pcl::PCLPointCloud2& cloud);
 
@@ -369,7 +371,8 @@ public:
   /** \brief The standard deviation, after the last evolve(), of the zero level of phi
    * from the true surface beside each point, in units of length, by index of the input
    * cloud: noise that is left and places that smoothing has moved. NaN far from the
-   * surface; 0 where nearly nothing was smoothed, where fits to phi tell the noise. */
+   * surface; 0 where nearly nothing was smoothed; fits to phi include the noise there.
+   */
   const std::vector<float>&
   getDeviations() const
   {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a level set starts from, how it is evolved, and what is told of it.
+// The start of a level set, its evolution, and its summary.
 #pragma once
 
 #include <pcl_uvol/common/exceptions.h>
@@ -92,7 +92,7 @@ struct PCL_UVOL_EXPORTS InitialFunction {
   computeDistance(const Eigen::Vector3d& x,
                   const Eigen::Array3d& scale = Eigen::Array3d::Ones()) const;
 
-  /** \throws InvalidArgument for a shape that is none */
+  /** \throws InvalidArgument for an invalid shape */
   void
   check() const;
 
@@ -111,7 +111,7 @@ struct PCL_UVOL_EXPORTS InitialFunction {
 
 /** \brief The smoothing term of thesis (3.7). */
 enum class CurvatureFlow {
-  Mean,    ///< the mean curvature, which shrinks what it smooths (thesis)
+  Mean,    ///< the mean curvature, which shrinks spheres (thesis)
   Relative ///< the mean curvature less its mean over the surroundings, in units of the
            ///< local spacing instead of the median one: smooths as much and keeps the
            ///< radius (default)
@@ -174,7 +174,7 @@ listWords(Reinitialization)
 }
 
 /** \brief One step of an evolution. Lengths are in units of the spacing, times in its
- * square; figures are those of the samples within one spacing of the zero level. */
+ * square; numbers are those of the samples within one spacing of the zero level. */
 struct LevelSetStep {
   double time;      ///< after the step
   double change;    ///< root mean square of the motion of the zero level, per unit of
@@ -207,13 +207,13 @@ struct LevelSetStep {
 struct LevelSetSummary {
   double spacing = 0.0; ///< median spacing of the samples near the surface: the unit of
                         ///< length
-  double noise = 0.0;   ///< standard deviation of f over its slope, in spacings, as the
-                        ///< residuals of local fits tell it, or close pairs of samples
-  bool logarithmic = false; ///< f_iso log(f / f_iso) stood for f - f_iso, since it lies
-                            ///< nearer to quadratics: both have the same surface
+  double noise = 0.0;   ///< standard deviation of f over its slope, in spacings, from
+                        ///< residuals of local fits or from close pairs of samples
+  bool logarithmic = false; ///< f_iso log(f / f_iso) replaced f - f_iso, because it is
+                            ///< closer to quadratics: both have the same surface
   double mu = 0.0;          ///< as given, or the last one of those that were chosen
   /** False where an automatic mu found nothing to smooth and no outliers were replaced:
-   * phi has the zero level of the field itself, and there are no steps. */
+   * phi has the zero level of the field itself, after 0 steps. */
   bool smoothed = true;
   /** The zero level rests, or the steps of an automatic mu are done; never where it has
    * vanished. */
@@ -221,7 +221,7 @@ struct LevelSetSummary {
   std::vector<LevelSetStep> steps;
 };
 
-/** \brief Told after every so many steps: what was found out so far, and phi, in units
+/** \brief Called after every so many steps, with the results so far, and phi, in units
  * of length, by index of the input cloud. */
 using SnapshotCallback =
     std::function<void(const LevelSetSummary& summary, const std::vector<float>& phi)>;
@@ -232,10 +232,10 @@ struct PCL_UVOL_EXPORTS LevelSetParameters {
   /** In units of the field; there is no default. */
   double isovalue = std::numeric_limits<double>::quiet_NaN();
   /** Weight of the data against smoothness, in [0, 1]: 1 follows the data, 0 only
-   * smooths. None, from the values: smaller and smaller weights one after another, as
-   * long as the expected deviation from the true surface falls (Stein's unbiased risk
-   * estimate of its mean square), and no smoothing at all unless the mean square falls
-   * by a quarter. None, from another start: the last of these weights. */
+   * smooths. Not set, from the values: smaller and smaller weights one after another,
+   * as long as the expected deviation from the true surface falls. (Stein's unbiased
+   * risk estimate gives its mean square.) Nothing is smoothed unless the mean square
+   * falls by a quarter. Not set, from another start: the last of these weights. */
   std::optional<double> mu;
   FitScheme scheme = FitScheme::Quadratic;
   CurvatureFlow flow = CurvatureFlow::Relative;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Figures of surfaces: area, volume, centroid, axes, genus, integrals of fields, and
+// Measures of surfaces: area, volume, centroid, axes, genus, integrals of fields, and
 // what samples lie inside.
 #pragma once
 
@@ -26,15 +26,15 @@ namespace pcl_uvol {
 
 /** \brief Parameters of SurfaceMeasures. */
 struct PCL_UVOL_EXPORTS SurfaceMeasuresParameters {
-  /** Bend triangles as the normals of their vertices tell. Flat ones are cut off the
-   * surface: area and volume are short by about (edge length / radius of curvature)^2
-   * / 8 of themselves. */
+  /** Bend triangles according to the normals of their vertices. Flat ones are cut off
+   * the surface: area and volume are short by about (edge length / radius of
+   * curvature)^2 / 8 of themselves. */
   bool curved = true;
   /** Look for triangles that go through one another, or touch without a vertex in
    * common; takes about as long as all the rest. */
   bool find_intersections = false;
-  /** Leave out pieces whose area and volume are known no better than to their own
-   * size, as those around debris are; they have no piece, and no share in the area. */
+  /** Leave out pieces whose area and volume have errors as large as themselves, as
+   * those around debris. They have no piece number, and do not count in the area. */
   bool drop_unsure = false;
   /** The field of the samples that the surface is an isosurface of: samples beyond the
    * isovalue are then counted and summed. Empty, the default: it is not known. */
@@ -97,7 +97,7 @@ struct SampleSum {
   double sum;
 };
 
-/** \brief Figures of a surface or a piece of it, in units of the coordinates. */
+/** \brief Measures of a surface or a piece of it, in units of the coordinates. */
 struct PCL_UVOL_EXPORTS PieceMeasures {
   double isovalue; ///< NaN where the vertices have no field of that name
   std::uint32_t vertices = 0, triangles = 0;
@@ -163,15 +163,14 @@ struct PCL_UVOL_EXPORTS SurfaceFigures {
  * close the surface at the border of the samples; `isovalue`. Integrals are over
  * quadratic triangles, see Dunavant, Int. J. Num. Meth. Eng. 21 (1985), and Vlachos et
  * al., Curved PN Triangles, I3D 2001; those over the enclosed space follow by Gauss's
- * theorem. The error of a figure adds up what all vertices may be off by, as though all
- * were off to one side, and what the bent triangles leave out; that is the larger part
- * without normals.
+ * theorem. The error of a measure is the sum of two parts: the errors of all vertices,
+ * as if all were to the same side, and the error of the curved triangles. The second
+ * part is the larger one without normals.
  *
  * Without triangles a surface is measured by those that its points would have in a
  * Delaunay triangulation of their tangent planes, of which each counts its Voronoi
  * cell: within 2e-5 on spheres and tori of 15,000 isopoints, and within 5e-4 of 2,500.
- * What lies inside is not looked at, and handles are not counted. A mesh is more
- * accurate.
+ * The inside is not measured, and handles are not counted. A mesh is more accurate.
  *
  * In a periodic box a mesh ends at the faces. It is closed there through the box for
  * volumes and for samples inside, whether or not it is welded; a welded mesh has pieces
@@ -182,9 +181,10 @@ struct PCL_UVOL_EXPORTS SurfaceFigures {
  * beyond the isovalue are outside of it. Where the sum over samples is what you want,
  * use sums_beyond, which does not depend on the surface.
  *
- * Where a surface ends, or meets a cap, what its vertices may be off by along it counts
- * as an error of the area. Of points at the end of a surface, and of isopoints in gaps
- * of the samples or at their border (see IsoSupport), all of the area is its error.
+ * Where a surface ends, or meets a cap, the errors of its vertices along the surface
+ * count as an error of the area. Of points at the end of a surface, and of isopoints in
+ * gaps of the samples or at their border (see IsoSupport), all of the area is its
+ * error.
  *
  * A field of the samples is integrated over the space inside as the sum over the
  * samples there of value times volume of the kd-tree's cell (thesis 2.2.1); where cells
@@ -238,14 +238,13 @@ public:
 
   /** \brief Measure all pieces.
    *
-   * Warnings of the report name pieces that are open, whose volume is not known,
-   * figures with large errors, a surface that looks inwards, and triangles that
-   * intersect.
+   * Warnings of the report name open pieces, whose volume is unknown, measures with
+   * large errors, a surface whose normals point inwards, and triangles that intersect.
    * \throws InvalidArgument without a surface, for a vertex of a triangle that is not
-   * finite or not there, for triangles that are no oriented manifold, for more than 10
-   * million pairs of triangles that intersect, where these are looked for, and without
-   * triangles for points that have no normals, or with samples but no field of them;
-   * and for sides of a box that are negative or not finite */
+   * finite or does not exist, and for triangles that are not an oriented manifold. Also
+   * for more than 10 million pairs of triangles that intersect, if these are requested,
+   * and for sides of a box that are negative or not finite. Without triangles, also for
+   * points that have no normals, and for samples without a field */
   SurfaceFigures
   compute();
 

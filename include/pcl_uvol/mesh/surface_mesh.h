@@ -41,8 +41,8 @@ listWords(Remeshing)
 struct PCL_UVOL_EXPORTS MeshingParameters {
   Remeshing remesh = Remeshing::Even;
   /** With Remeshing::Even: length that edges get, about, in units of the coordinates;
-   * 0: that of the local spacing. Not below the local spacing: what lies between
-   * samples is not known better. */
+   * 0: that of the local spacing. Not below the local spacing, because samples do not
+   * resolve more. */
   double edge_length = 0.0;
   /** Leave the surface open where it reaches the border of the samples' box, instead of
    * closing it by caps along the sides of the box. */
@@ -121,8 +121,8 @@ struct PCL_UVOL_EXPORTS SurfaceTriangles {
   std::vector<SurfacePiece> pieces;
   double smallest_angle = 180.0; ///< of all triangles, in degrees
   double cap_part = 0.0;         ///< of the area, in caps
-  /** Triangles that look away from their vertices' normals, and those with an angle
-   * below 5 degrees. @{ */
+  /** Triangles that are inverted relative to the normals of their vertices, and those
+   * with an angle below 5 degrees. @{ */
   std::uint64_t folds = 0, slivers = 0;
   /** @} */
   SurfaceTally tally; ///< of the isosurfaces
@@ -136,8 +136,8 @@ struct PCL_UVOL_EXPORTS SurfaceTriangles {
 namespace detail {
 
 /** \brief SurfaceMesh on any cloud.
- * \param shown_isovalues what vertices, pieces and warnings call the isovalues, where
- * the field is a level-set function that stands for another one */
+ * \param shown_isovalues what vertices, pieces and warnings call the isovalues, if the
+ * field is a level-set function of another field */
 PCL_UVOL_EXPORTS SurfaceTriangles
 makeSurfaceMesh(const CloudView& cloud,
                 const pcl::Indices& indices,
@@ -171,10 +171,10 @@ toPolygonMesh(const SurfaceTriangles& surface,
  * pcl::PolygonMesh mesh;
  * mesher.extract(mesh);
  * \endcode
- * Every sample has a cell of the kd-tree (thesis 2.2.1) for its own. At most three
- * cells meet along an edge and four in a corner, so that the border between cells on
- * different sides of the isovalue is a closed, oriented surface without branches, for
- * any samples. A cell is on the side that the local polynomial fit (the one of
+ * Every sample has a separate cell of the kd-tree (thesis 2.2.1). At most three cells
+ * meet along an edge and four in a corner. So the border between cells on different
+ * sides of the isovalue is a closed, oriented surface without branches, for any
+ * samples. A cell is on the side that the local polynomial fit (the one of
  * IsosurfaceExtraction) gives the centre of its box. Vertices lie between touching
  * cells of different sides and are moved onto the zero level of fits made there, which
  * give normal, curvature, error and support, as for isopoints. The mesh is checked
@@ -198,11 +198,10 @@ public:
    * \throws InvalidArgument as IsosurfaceExtraction::extract and checkParameters(); the
    * mesh is then untouched
    *
-   * Counts of the report: those of the samples as IsosurfaceExtraction has them,
-   * band_cells, vertices, triangles, pieces, dropped_pieces, handles, rim_edges,
-   * cap_vertices, folds (triangles that look away from their vertices' normals),
-   * slivers (those with an angle below 5 degrees), crossing_samples, spikes, and those
-   * of the fits. */
+   * Counts of the report: those of the samples and of the fits, as for
+   * IsosurfaceExtraction, crossing_samples, spikes, band_cells, vertices, triangles,
+   * pieces, dropped_pieces, handles, rim_edges and cap_vertices. Also folds (inverted
+   * triangles) and slivers (triangles with an angle below 5 degrees). */
   void
   extract(SurfaceTriangles& surface)
   {

@@ -58,8 +58,8 @@ public:
   std::unique_ptr<Communicator>
   split(std::size_t color) override;
 
-  /** \brief Tell the others how this process fares, where they call this function or
-   * one of those above. Once one has failed nothing is told any more.
+  /** \brief Report to the other processes whether this one has failed, when they call
+   * this function or one of those above. After a failure nothing more is exchanged.
    * \param has_failed whether this process has
    * \return the first process that failed, size() for none */
   std::size_t

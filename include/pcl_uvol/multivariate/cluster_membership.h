@@ -19,8 +19,8 @@ namespace pcl_uvol {
 /** \brief Parameters of ClusterMembership. */
 struct PCL_UVOL_EXPORTS MembershipParameters {
   int cluster = 0; ///< one of the labels, that of noise as well
-  /** Field in [0, 1] that tells how surely a point belongs to its cluster: members have
-   * it instead of 1. Empty: none. */
+  /** Field with the probability, in [0, 1], that a point belongs to its cluster:
+   * members have it instead of 1. Empty: no field. */
   std::string probability;
   /** Field of smoothing lengths, in units of the coordinates: membership is smoothed by
    * the kernel of smoothed particle hydrodynamics. Empty: it is not. */
@@ -61,7 +61,7 @@ computeMembership(const CloudView& cloud,
 
 } // namespace detail
 
-/** \brief Tells how far every point belongs to a cluster.
+/** \brief Membership of every point in a cluster.
  *
  * \code
  * pcl_uvol::ClusterMembership<pcl::PCLPointCloud2> membership;
@@ -76,13 +76,12 @@ computeMembership(const CloudView& cloud,
  *
  *   sum_j m_j V_j W(|x_i - x_j|, h_j) / sum_j V_j W(|x_i - x_j|, h_j)
  *
- * with the cubic spline W of support 2 h (Monaghan 1992), the smoothing length h_j of
- * the particle that contributes, and its volume V_j = h_j^3, which is the one that all
- * particles of a simulation with a fixed number of neighbours have, up to a factor.
- * (Shepard 1968; the result lies in [0, 1].) Particles whose position is not finite, or
+ * with the cubic spline W of support 2 h (Monaghan 1992). h_j is the smoothing length
+ * of the particle that contributes, and V_j = h_j^3 its volume. In a simulation with a
+ * fixed number of neighbours, this is the volume of all particles, up to a factor.
+ * (Shepard 1968; the result is in [0, 1].) Particles whose position is not finite, or
  * whose smoothing length is not a number above 0, keep their membership and do not
- * contribute.
- * Memory: 60 bytes per particle if smoothed.
+ * contribute. Memory: 60 bytes per particle if smoothed.
  * \tparam PointT any registered point type with x, y, z, or pcl::PCLPointCloud2 */
 template <typename PointT>
 class ClusterMembership : public CloudStage<PointT>,

@@ -28,8 +28,8 @@ struct PCL_UVOL_EXPORTS ClusteringParameters {
   /** Nearest other points that the core distance of a point reaches to, up to 1000. 0:
    * plain distances, single linkage. */
   std::size_t neighbors = 10;
-  /** Fewer points are no cluster; 0: the larger one of 10 and the square root of the
-   * number of points. */
+  /** Smallest number of points of a cluster; 0: the larger one of 10 and the square
+   * root of the number of points. */
   std::size_t min_cluster_size = 0;
   bool allow_single_cluster = false; ///< all points together may be the one chosen
   /** In units of the attributes or, if standardized, of standard deviations; 0:
@@ -75,8 +75,8 @@ struct ClusterNode {
 /** \brief Clusters of points. */
 struct Clustering {
   std::vector<std::int32_t> labels; ///< per point: by decreasing size of the clusters,
-                                    ///< from 0, equal sizes by their first members; -1:
-                                    ///< noise
+                                    ///< zero-based, equal sizes by their first members;
+                                    ///< -1: noise
   std::vector<float> probabilities; ///< of membership, in [0, 1]; 0 for noise
   std::vector<ClusterNode> tree;    ///< the root first, parents before children
 };
@@ -103,16 +103,15 @@ clusterCloud(const CloudView& cloud,
  * std::vector<int> labels;
  * clustering.compute(labels);
  * \endcode
- * At a distance d those points hang together that a chain of steps of mutual
- * reachability distance up to d connects. From large to small d the points split into
- * ever denser clusters, a tree, while points in thin surroundings leave them as noise.
- * Clusters are chosen in this tree where they persist: those that do not overlap and
- * whose stabilities have the largest sum. No number of clusters is asked for; their
- * shapes and densities may differ. The result does not depend on threads; equal
- * distances part all at once, so that it does not depend on the order of the input
- * either. Points at distance 0 count as if half the smallest distance there is were
- * between them. Memory: about 230 bytes per point besides the cloud, with 6 attributes
- * and 10 neighbours.
+ * At a distance d, points are connected if a chain of steps with mutual reachability
+ * distances up to d leads from one to the other. From large to small d the points split
+ * into ever denser clusters, a tree, while points in sparse surroundings leave them as
+ * noise. The result has those clusters of the tree that do not overlap and whose
+ * stabilities have the largest sum. You do not give a number of clusters; their shapes
+ * and densities may differ. The result does not depend on threads; equal distances part
+ * all at once, so that it does not depend on the order of the input either. Points at
+ * distance 0 count as if half the smallest distance there is were between them. Memory:
+ * about 230 bytes per point besides the cloud, with 6 attributes and 10 neighbours.
  * \tparam PointT any registered point type with x, y, z, or pcl::PCLPointCloud2 */
 template <typename PointT>
 class DensityClustering : public CloudStage<PointT>,
@@ -159,14 +158,14 @@ public:
     parameters_.neighbors = neighbors;
   }
 
-  /** \return The neighbour whose distance tells the density; 0: plain distances. */
+  /** \return The neighbour whose distance estimates the density; 0: plain distances. */
   std::size_t
   getKSearch() const
   {
     return parameters_.neighbors;
   }
 
-  /** \brief Fewer points are no cluster: 2 or more; 0, the default, stands for the
+  /** \brief Smallest number of points of a cluster, 2 or more; 0, the default: the
    * larger one of 10 and the square root of the number of points. */
   void
   setMinClusterSize(std::size_t size)
@@ -213,19 +212,19 @@ public:
   }
 
   /** \brief Find clusters.
-   * \param labels per point of the input cloud: clusters from 0 by decreasing size; -1
-   * for noise, points with missing values and those not in the indices
+   * \param labels per point of the input cloud: zero-based clusters by decreasing size;
+   * -1 for noise, points with missing values and those not in the indices
    *
-   * Counts of the report: points (those clustered), missing_values, clusters, noise. No
-   * cluster is no error but a warning that tells what to change.
+   * Counts of the report: points (those clustered), missing_values, clusters, noise. If
+   * no cluster is found, a warning says what to change.
    * \throws InvalidArgument without an input cloud, for parameters out of range, and as
    * readAttributes; labels are then untouched */
   void
   compute(std::vector<int>& labels);
 
-  /** \brief How surely every point of the input cloud belongs to its cluster, in [0,
-   * 1]: the density at which it leaves, in parts of the one at which the cluster dies;
-   * 0 where the label is -1. */
+  /** \brief Probability that each point of the input cloud belongs to its cluster, in
+   * [0, 1]: the density at which it leaves, in parts of the one at which the cluster
+   * dies; 0 where the label is -1. */
   const std::vector<float>&
   getProbabilities() const
   {

@@ -43,7 +43,7 @@ struct PCL_UVOL_EXPORTS Projection {
 
 /** \brief How axes are chosen. */
 enum class ProjectionMethod {
-  Star, ///< the two clusters that are hardest to tell lie as far apart as can be
+  Star, ///< the two clusters that are hardest to separate are as far apart as possible
   PrincipalAxes ///< the directions of largest variance
 };
 
@@ -98,11 +98,11 @@ struct ProjectedPoints {
   pcl::Indices sources;    ///< points of the input cloud
   std::vector<int> labels; ///< of their clusters, negative for noise
   Projection projection;
-  /** The smallest Fisher ratio of two clusters in the projected space:
-   * (mu_a - mu_b)^T (S_a + S_b)^-1 (mu_a - mu_b) with centres mu and regularised
-   * covariances S (sums divided by the number of points), that is the squared distance
-   * of the centres in units of the spread along it; infinite for fewer than two
-   * clusters. */
+  /** The smallest Fisher ratio of two clusters in the projected space. It is (mu_a -
+   * mu_b)^T (S_a + S_b)^-1 (mu_a - mu_b). Here mu are the centres, S the regularised
+   * covariances (sums divided by the number of points). This is the squared distance of
+   * the centres in units of the spread along it. Infinite for fewer than two clusters.
+   */
   double smallest_ratio;
 };
 
@@ -195,9 +195,10 @@ public:
    * those with equal centres, which nothing keeps apart. Fewer than two clusters give a
    * warning.
    * \param points where they come to lie
-   * \throws InvalidArgument without an input cloud, for unknown or repeated attributes
-   * or none, if no point has all of them, for another number of labels than of points,
-   * a regularization out of range; points are then untouched */
+   * \throws InvalidArgument without an input cloud, without attributes or for unknown
+   * or repeated ones, and if no point has all of them. Also for a number of labels that
+   * is not that of points, and a regularization out of range. points are then untouched
+   */
   void
   compute(pcl::PointCloud<pcl::PointXYZ>& points);
 

@@ -62,7 +62,7 @@ struct PCL_UVOL_EXPORTS NeighborGraph {
   }
 };
 
-/** \brief What the samples around a sample fill. */
+/** \brief Dimension of the space that the samples around a sample fill. */
 enum class LocalDimension : std::uint8_t {
   Isolated = 0, ///< nothing: the nearest one is far, by its own nearest neighbour
   Line = 1,     ///< a line: a track, a profile, a drill hole

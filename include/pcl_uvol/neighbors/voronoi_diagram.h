@@ -118,7 +118,7 @@ public:
   virtual ~NearestSites() = default;
 
   /** \brief Index of the site of every cell, by the distance between the centres of
-   * cells; no_site everywhere if there is none.
+   * cells; no_site everywhere if sites is empty.
    * \param sites distinct cells in the order of their numbers
    * \param report gets times
    * \param shape the grid

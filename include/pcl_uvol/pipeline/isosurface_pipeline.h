@@ -71,8 +71,8 @@ public:
   /** \brief The field and the scale that run() takes: those of the parameters, with the
    * automatic ones filled in.
    * \param choice where it is not null, how an automatic scale was found; else as it is
-   * \throws InvalidArgument without an input, where the samples do not tell which field
-   * is meant, and as chooseScale */
+   * \throws InvalidArgument without an input, if the field is not given and not unique,
+   * and as chooseScale */
   IsosurfaceParameters
   resolveParameters(std::optional<ScaleChoice>* choice = nullptr) const;
 
@@ -98,11 +98,11 @@ private:
  * const pcl_uvol::IsosurfaceResult result = pipeline.run();
  * \endcode
  * The isopoints of all processes together are those of IsosurfacePipeline, byte for
- * byte, but for normals: an isopoint without a fit has that of its edge, since
- * neighbours may lie on other processes. That goes for samples in a box that repeats as
- * well: each process gives the samples that it holds images, for whoever has those on
- * the other side. Memory: about 130 bytes per sample; in such a box a copy of all
- * fields besides. */
+ * byte, except for normals: an isopoint without a fit has the normal of its edge,
+ * because neighbours may be on other processes. This includes periodic boxes: each
+ * process adds images of its samples for the processes that have the samples on the
+ * other side. Memory: about 130 bytes per sample; in a periodic box also a copy of all
+ * fields. */
 class PCL_UVOL_EXPORTS DistributedIsosurfacePipeline
     : public ParameterStage<IsosurfacePipelineParameters> {
 public:
@@ -146,8 +146,8 @@ public:
     return is_gathered_;
   }
 
-  /** \brief Run on all processes at once. Edges of the result are indices into what
-   * they touch of the samples and their images, not into the input.
+  /** \brief Run on all processes at once. Edges of the result are indices into the
+   * samples that they touch, and images of these, not into the input.
    * \throws InvalidArgument as IsosurfacePipeline, for an automatic scale, a level set
    * and normals other than those of fits and edges; on all processes if there is no
    * sample at all */

@@ -21,8 +21,8 @@ namespace pcl_uvol {
 
 /** \brief How isopoints are oriented. */
 enum class NormalMethod {
-  Auto, ///< Pca with Interpolation::Linear; with Auto as IsoOrientation says, by what
-        ///< the samples carry; else Fit (default)
+  Auto, ///< Pca with Interpolation::Linear; with Auto as IsoOrientation says, chosen
+        ///< from the sampling; else Fit (default)
   Fit,  ///< by the local fits, by principal components where none serves
   Pca,  ///< by principal components of the isopoints (thesis 4.1)
   Edge ///< as the extraction leaves them: by the fits, along the edge where none serves
@@ -54,7 +54,7 @@ listWords(ValidateBy)
            {ValidateBy::Field, "field"}}};
 }
 
-/** \brief What becomes of a mesh at the faces of a box that repeats. */
+/** \brief How a mesh ends at the faces of a periodic box. */
 enum class PeriodicMesh {
   Cut, ///< it ends there in rims (default)
   Weld ///< rims in opposite faces have the same vertices, so that copies of the mesh
@@ -95,7 +95,7 @@ struct PCL_UVOL_EXPORTS IsosurfacePipelineParameters {
     isosurface.interpolation = Interpolation::Auto;
   }
 
-  /** An empty field stands for `intensity`, else the only candidate, see
+  /** An empty field means `intensity`, else the only candidate, see
    * ScalarField::defaultName. The interpolation is Auto unless it is set: an isopoint
    * stays on its fit unless it reaches across a gap, or lies beside one and has no fit.
    */
@@ -142,10 +142,9 @@ struct PCL_UVOL_EXPORTS IsosurfacePipelineParameters {
    * the samples do, at 0, about 0, or at the lowest of them; isopoints lie in it, their
    * edges may join samples across its faces, and a mesh is cut there. */
   Eigen::Array3d periodic{0.0, 0.0, 0.0};
-  /** With a mesh in a box that repeats. Weld adds the field `image_of`: the vertex in
-   * the low face that one in a high face is the image of, else the vertex itself.
-   * Pieces, their rims and handles are then those of the mesh whose images are one
-   * vertex. */
+  /** With a mesh in a periodic box. Weld adds the field `image_of`: the vertex in the
+   * low face that one in a high face is the image of, else the vertex itself. Pieces,
+   * their rims and handles are then those of the mesh whose images are one vertex. */
   PeriodicMesh periodic_mesh = PeriodicMesh::Cut;
 
   /** \return The interpolation that is taken: Auto is Linear where samples of a value
@@ -196,15 +195,19 @@ struct PCL_UVOL_EXPORTS IsosurfacePipelineParameters {
   fromJson(const std::string& text);
 };
 
-/** \throws InvalidArgument for what can be told without samples: see
- * checkParameters(IsosurfaceParameters); normals by fits with linear interpolation;
- * fewer than 2 neighbours of a normal; a bound of the error that is negative or no
- * number, or given beside an automatic one; a value outside that is not finite, or with
- * filled gaps; a hold-out test of one fold; a hold-out test, filled gaps or a value
- * outside in a box that repeats; sides of such a box that are negative or not finite;
- * welding without such a box or a mesh; a mesh with a bound of the error, without
- * bridged points, with other normals than those of the fits, and as
- * checkParameters(SurfaceMeshParameters)
+/** \brief Check everything that needs no samples.
+ *
+ * \throws InvalidArgument as checkParameters(IsosurfaceParameters) and
+ * checkParameters(SurfaceMeshParameters), and for
+ * - normals by fits with linear interpolation; fewer than 2 neighbours of a normal;
+ * - a bound of the error that is negative or not a number, or combined with an
+ * automatic one;
+ * - a value outside that is not finite, or with filled gaps;
+ * - cross-validation with one fold;
+ * - cross-validation, filled gaps or a value outside in a periodic box; sides of the
+ * box that are negative or not finite; welding without a periodic box or a mesh;
+ * - a mesh with a bound of the error, without bridged points, or with other normals
+ * than those of the fits
  *
  * \param parameters to be checked before samples are there */
 PCL_UVOL_EXPORTS void

@@ -43,22 +43,22 @@ struct ErrorSummary {
   float median, percentile_95, largest;
 };
 
-/** \brief Shares of samples whose class, at the isovalue or above it or below, is
- * predicted rightly. NaN of no samples. */
+/** \brief Proportions of samples whose class (at or above the isovalue, or below) is
+ * predicted correctly. NaN without samples. */
 struct ClassShares {
   double predicted; ///< by what is tested
-  double base;      ///< by always saying what is more frequent
+  double base;      ///< by the majority class
   double nearest;   ///< by the class of the nearest sample
 };
 
-/** \brief The hold-out test of one isovalue: samples are left out, fold by fold, the
- * surface is extracted from the others, and asked for the class of those left out.
+/** \brief The cross-validation of one isovalue. Samples are held out, fold by fold, the
+ * surface is extracted from the others, and predicts the class of the held-out ones.
  *
- * Near the surface, no farther from it than 2 local spacings, the class is told by the
- * side of the nearest isopoint's normal; a local spacing is the mean distance of the 6
- * nearest samples that remained, in the stretched space. Everywhere it is told by the
- * field between the samples, kriged from 16 samples of all octants, and where that has
- * no value by the nearest sample. */
+ * Near the surface, no farther from it than 2 local spacings, the side of the nearest
+ * isopoint's normal predicts the class. A local spacing is the mean distance of the 6
+ * nearest remaining samples, in the stretched space. Everywhere, the field between the
+ * samples predicts the class, kriged from 16 samples of all octants; where it has no
+ * value, the nearest sample does. */
 struct ValidationScore {
   std::size_t tested = 0;  ///< samples with a value and a place
   std::size_t covered = 0; ///< of these, those near the surface
@@ -69,9 +69,9 @@ struct ValidationScore {
   ClassShares field{};        ///< of all: by the field
   double side_everywhere = 0; ///< of all: by the side of the nearest isopoint, however
                               ///< far
-  /** The samples near the surface that lie farther from the plane of the nearest
-   * isopoint than its `error`, and how many of these lie on the right side of it: most,
-   * where the estimate holds. @{ */
+  /** The samples near the surface that are farther from the plane of the nearest
+   * isopoint than its `error`, and the proportion of these on the correct side of it:
+   * most, if the estimate is right. @{ */
   std::size_t beyond_error = 0;
   double side_beyond_error = 0;
   /** @} */
@@ -87,15 +87,15 @@ struct ValidationScore {
  * Isopoints that rest on them have IsoSupport::Predicted; their `error` is the standard
  * deviation of the kriging over the slope of the kriged field, and `confidence` the
  * part of the field's variance that the samples explain there: 1 - deviation^2 /
- * (nugget + partial sill), 1 for all other isopoints. Where they explain nothing of it
- * a prediction is no better than a mean of all samples: with Interpolation::Auto,
- * isopoints of confidence 0 are left out. */
+ * (nugget + partial sill), 1 for all other isopoints. Where they explain nothing of it,
+ * a prediction is not more accurate than the mean of all samples: with
+ * Interpolation::Auto, isopoints of confidence 0 are left out. */
 struct GapFilling {
   std::size_t predicted = 0; ///< samples; 0: there was no gap, or it was not filled
   double width = 0.0;        ///< of a gap; 0: no gap, or none whose width is known
   double spacing = 0.0; ///< between samples: a quarter of the width, or more if these
                         ///< were too many
-  std::string unfilled; ///< why there are none: part of a sentence
+  std::string unfilled; ///< why no gap was filled: part of a sentence
   /** The range of the spherical variogram; no predicted sample is farther from a
    * measured one. */
   double range = 0.0;
@@ -113,7 +113,7 @@ struct SampleBox {
   std::array<double, 3> low{}, sides{};
 };
 
-/** \brief What comes out. */
+/** \brief Result of a pipeline. */
 struct PCL_UVOL_EXPORTS IsosurfaceResult {
   /** The isopoints: the fields of PointIso, then all fields of the samples that these
    * do not replace. `isovalue` is float64, behind these, where float holds one of the
@@ -140,8 +140,7 @@ struct PCL_UVOL_EXPORTS IsosurfaceResult {
    */
   std::vector<LevelSetSummary> level_sets;
   std::optional<ErrorSummary> errors; ///< none where no error is estimated
-  /** What the samples are like in the stretched space; of several processes, those of
-   * all of them. */
+  /** The sampling in the stretched space; of several processes, of all samples. */
   std::optional<SamplingSummary> sampling;
   std::optional<GapFilling> gaps;          ///< if they were to be filled
   std::vector<ValidationScore> validation; ///< one per isovalue, if asked for

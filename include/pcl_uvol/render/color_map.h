@@ -24,7 +24,7 @@ struct Color {
 /** \brief Reflection of a surface (Blinn 1977): ambient, diffuse and specular part,
  * each a factor of the colour of surface (ambient, diffuse) or light (specular). */
 struct Material {
-  Color color{0.80f, 0.78f, 0.74f}; ///< of points without a colour of their own
+  Color color{0.80f, 0.78f, 0.74f}; ///< of points that have no colour
   double ambient = 0.18;
   double diffuse = 0.75;
   double specular = 0.22;
@@ -85,9 +85,9 @@ toRgba(const Color& color);
 class PCL_UVOL_EXPORTS ColorMap {
 public:
   /** \param name of names(): viridis and cividis (perceptually uniform, also for the
-   * colour-blind), inferno, magma, plasma, turbo, gray, coolwarm, RdBu and PuOr
-   * (diverging), twilight (cyclic), OkabeIto (eight categories, also for the
-   * colour-blind) or tab10 (ten); with "_r" behind it the map runs backwards
+   * colour-blind), inferno, magma, plasma, turbo, gray. Diverging: coolwarm, RdBu,
+   * PuOr. Cyclic: twilight. Categories: OkabeIto (eight, also for the colour-blind),
+   * tab10 (ten). "_r" after the name reverses the map
    * \throws InvalidArgument for another name */
   explicit ColorMap(const std::string& name = "viridis");
 
@@ -115,7 +115,7 @@ public:
   Color
   at(double position) const;
 
-  /** \brief Colour of a category, counted from 0; they repeat after size(). Negative
+  /** \brief Colour of a zero-based category; colours repeat after size(). Negative
    * ones, which mean "in no class" by custom, and NaN are grey.
    * \param category a whole number */
   Color

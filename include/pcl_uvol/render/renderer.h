@@ -93,8 +93,8 @@ struct PCL_UVOL_EXPORTS Camera {
   static const std::vector<std::string>&
   viewNames();
 
-  /** \brief The same view by parallel projection: what lies around the point looked at
-   * keeps its size. */
+  /** \brief The same view by parallel projection: objects near the centre of the view
+   * keep their size. */
   Camera
   parallel() const;
 

@@ -83,10 +83,10 @@ generateSplats(const CloudView& cloud,
  * pcl::PointCloud<PointSplat> splats;
  * generation.compute(splats);
  * \endcode
- * From every point that is not passed over a disc is grown across its neighbours,
- * nearest first, until they lie more than delta off a plane perpendicular to the
- * point's normal, whose height minimises the largest distance; points within lambda of
- * its radius are then passed over.
+ * From every point that is not skipped, a disc grows across its neighbours, nearest
+ * first, until one is farther than delta from the plane of the disc. The plane is
+ * perpendicular to the point's normal, at the height that minimises the largest
+ * distance. Points within lambda of its radius are then skipped.
  *
  * No hole is left: a disc is at least as large as the Voronoi cell of its point, and
  * only points whose cell lies within the disc are passed over. No disc grows across a

@@ -41,8 +41,8 @@ struct PCL_UVOL_EXPORTS SurfaceNormalParameters {
   /** Turns the axes that these factors belong to, see
    * InterpolationParameters::rotation. */
   Eigen::Array3d rotation{0.0, 0.0, 0.0};
-  /** Where points without a normal of their own are seen from. None (default): 0, 0, 0,
-   * with a warning if the points have no normals. */
+  /** Position towards which the normals of points without a given normal point. Not set
+   * (default): 0, 0, 0, with a warning if the points have no normals. */
   std::optional<Eigen::Array3d> view_point;
 
   /** \return The members under the names that JSON has for them. */
@@ -91,8 +91,8 @@ estimateSurfaceNormals(const CloudView& cloud,
                        Report& report);
 
 /** \brief Replace the outside vectors of isopoints by normals that they orient. Every
- * run of equal isovalues is a surface of its own: none is fitted to another one's
- * points. */
+ * run of equal isovalues is a separate surface: normals of one surface do not use
+ * points of another. */
 PCL_UVOL_EXPORTS void
 replaceNormals(pcl::PointCloud<PointIso>& isopoints,
                const SurfaceNormalParameters& parameters,
@@ -112,11 +112,11 @@ replaceMissingNormals(pcl::PointCloud<PointIso>& isopoints,
 /** \brief Normals of a point cloud in the manner of pcl::NormalEstimation.
  *
  * The normal is the eigenvector to the smallest eigenvalue of the covariance of the
- * point and its k nearest neighbours about their centroid. It looks to the side of the
- * point's own normal, the outside vector, where the point type has one that is not
- * zero, else towards the view point. Where the neighbours lie on one line or are fewer
- * than two the outside vector itself is taken, and counted as "degenerate_normals".
- * Exact duplicates count as one neighbour.
+ * point and its k nearest neighbours about their centroid. It points to the side of the
+ * point's normal, the outside vector, if the point type has one that is not zero, else
+ * towards the view point. If the neighbours are on one line or fewer than two, the
+ * outside vector itself is used, and counted as "degenerate_normals". Exact duplicates
+ * count as one neighbour.
  * \tparam PointInT with x, y, z
  * \tparam PointOutT with normal_x/y/z and curvature */
 template <typename PointInT, typename PointOutT = pcl::Normal>
@@ -171,8 +171,8 @@ public:
     return parameters_.scale;
   }
 
-  /** \brief Where points without a normal of their own are seen from. Default: not set,
-   * which is 0, 0, 0 with a warning.
+  /** \brief Position towards which the normals of points without a given normal point.
+   * Default: not set, which is 0, 0, 0 with a warning.
    * \param x in the coordinates of the cloud
    * \param y as x
    * \param z as x */

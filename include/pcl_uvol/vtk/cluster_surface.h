@@ -148,10 +148,10 @@ public:
    * Counts of the report: members, non_finite, vertices, triangles, with a hull
    * split_pieces.
    * \param surface vertices and triangles
-   * \throws InvalidArgument without an input cloud, without a finite point, for a
-   * distance or scale that is not finite or negative, a distance too small for the
-   * grid, one point without a distance, too many cells, a hull of points that leave no
-   * triangle (fewer than three, or so); surface is then untouched */
+   * \throws InvalidArgument without an input cloud, without a finite point, and for a
+   * distance or scale that is not finite or negative. Also for a distance too small for
+   * the grid, one point without a distance, too many cells, and a hull without
+   * triangles. surface is then untouched */
   void
   compute(ClusterSurface& surface);
 };

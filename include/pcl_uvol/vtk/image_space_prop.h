@@ -54,8 +54,8 @@ listWords(WindowBackend)
  * orientation, origin and a scale that is the same along all axes are honoured. Shading
  * takes the lights of the settings, not those of VTK's renderer; anti-aliased borders
  * blend with what was drawn before. Where OpenGL is software the CPU draws, several
- * times as fast. VTK's errors (vtkErrorMacro) tell, once each and without a picture, of
- * a bad cloud or bad settings, another scale, pixels that are not square, a failing
+ * times as fast. VTK's errors (vtkErrorMacro) report, once each and without an image, a
+ * bad cloud or bad settings, another scale, pixels that are not square, a failing
  * OpenGL. Memory of the graphics card as GlBackend. */
 class PCL_UVOL_EXPORTS ImageSpaceProp : public vtkProp3D {
 public:
@@ -95,9 +95,9 @@ public:
     Modified();
   }
 
-  /** \brief Let the CPU draw up to four times as coarsely while the window asks for a
-   * rate of frames, as it does when a mouse turns it, and frames take longer than so
-   * many milliseconds; default 20, to which windows add some 5. Infinite: never. */
+  /** \brief Let the CPU draw up to four times as coarsely while the mouse turns the
+   * view, if frames take longer than so many milliseconds. Default 20, to which windows
+   * add about 5. Infinite: never. */
   void
   setDragTime(double milliseconds);
 
@@ -124,7 +124,7 @@ public:
     return 0;
   }
 
-  /** \brief Free what lies on the graphics card.
+  /** \brief Free the memory on the graphics card.
    * \param window whose resources they are */
   void
   ReleaseGraphicsResources(vtkWindow* window) override;
@@ -159,7 +159,7 @@ private:
   void
   releaseBackend();
 
-  /** Tell of an error unless it is the one told last. */
+  /** Report an error unless it is the last one reported. */
   void
   report(const std::string& message);
 

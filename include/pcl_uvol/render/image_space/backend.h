@@ -26,9 +26,9 @@ enum class SmoothingFilter {
  * distance to the eye over that of the farthest place of the cloud, background 1. */
 struct ImageSpaceSettings {
   // Projection (4.3.1)
-  /** Leave out points that look away from the eye, which closed surfaces whose normals
-   * point outwards hide: faster. Else both sides are lit, and discs of one do not blend
-   * into the other. */
+  /** Leave out points that face away from the eye (back-face culling). It is faster,
+   * and right for closed surfaces whose normals point outwards. Otherwise both sides
+   * are lit, and discs of one side do not blend into the other. */
   bool cull_back_faces = false;
   /** Oriented discs where points lie farther apart than pixels; beyond the thesis. */
   bool footprints = true;
@@ -49,8 +49,8 @@ struct ImageSpaceSettings {
   bool shading = true;
   Material material;
   std::vector<Light> lights = defaultLights();
-  /** What walls around a place take of its light, in [0, 1]: pits and creases are
-   * darker; 0 leaves it out. Beyond the thesis. */
+  /** Part of the light that walls around a position hide, in [0, 1]: pits and creases
+   * are darker; 0 switches it off. Beyond the thesis. */
   double ambient_occlusion = 0.0;
   SmoothingFilter smoothing = SmoothingFilter::AlleviatedGaussian;
   /** In [0, 6]. */
@@ -91,7 +91,8 @@ class PCL_UVOL_EXPORTS ImageSpaceBackend {
 public:
   virtual ~ImageSpaceBackend() = default;
 
-  /** \brief What it runs on: "cpu (avx512)", or context, version and renderer of GL. */
+  /** \brief Name of the backend: "cpu (avx512)", or context, version and renderer of
+   * GL. */
   virtual std::string
   describe() const = 0;
 

@@ -43,7 +43,7 @@ public:
   /** \brief Sort the points.
    * \param cloud as of ImageSpaceRenderer
    * \param threads 0 (default) = all cores, here and for footprints
-   * \param progress is told of the steps
+   * \param progress called with the progress of the steps
    * \throws InvalidArgument if there is no point to draw */
   explicit PreparedSurface(const pcl::PCLPointCloud2& cloud,
                            unsigned threads = 0,
@@ -55,7 +55,7 @@ public:
 
   /** \brief Find the discs of the points; frames that need them have them from then on.
    * The surface may be drawn meanwhile.
-   * \param progress is told of the steps */
+   * \param progress called with the progress of the steps */
   void
   findFootprints(const ProgressCallback& progress = {});
 
@@ -80,8 +80,8 @@ private:
   void
   keepFootprints(std::unique_ptr<Footprints>&& footprints, Report&& report);
 
-  /** Give footprints that were found to the surface, and what they report.
-   * \return false if there are none yet */
+  /** Give footprints that were found, and their report, to the surface.
+   * \return false if they are not found yet */
   bool
   applyFootprints(Report& report);
 
@@ -105,7 +105,7 @@ struct View;
  * pass. */
 class PCL_UVOL_EXPORTS ImageSpaceRendererBase : public Renderer {
 public:
-  /** \brief Draws a prepared frame, and adds what it does to the report. */
+  /** \brief Draws a prepared frame, and adds counts and times to the report. */
   using Painter = std::function<void(const Frame& frame, Report& report)>;
 
   /** \brief Colour by a scalar field, as in ScalarField; "rgb" for the cloud's own
@@ -193,8 +193,8 @@ public:
     return opacities_;
   }
 
-  /** \brief Draw all points of the input as they were prepared, until the next input.
-   * \param prepared of the same cloud; null: frames prepare what they need */
+  /** \brief Draw all points of the input with this preparation, until the next input.
+   * \param prepared of the same cloud; null: each frame prepares the points */
   void
   setPreparedSurface(const std::shared_ptr<PreparedSurface>& prepared);
 
@@ -248,7 +248,7 @@ public:
     return backend_ ? backend_->describe() : "none";
   }
 
-  /** \brief Range of values that the colours of the last render() stand for. */
+  /** \brief Range of values of the colours of the last render(). */
   const std::array<double, 2>&
   getColorRange() const
   {
@@ -369,7 +369,7 @@ private:
  * pcl_uvol::Image image;
  * renderer.render(image);
  * \endcode
- * Normals point outwards: points that look away from the eye are not drawn. The cloud
+ * Normals point outwards: points that face away from the eye are not drawn. The cloud
  * is sorted once, further frames reuse it; it, and indices, must not change between.
  * \tparam PointT any registered point type with x, y, z, or pcl::PCLPointCloud2 */
 template <typename PointT>

@@ -18,8 +18,8 @@
 
 namespace pcl_uvol {
 
-/** \brief A material that may mirror and let light through. What it neither mirrors nor
- * lets through is ambient and diffuse reflection. */
+/** \brief A material that may reflect light like a mirror and transmit it. The rest of
+ * the light is ambient and diffuse reflection. */
 struct RayMaterial : Material {
   double reflectivity = 0.0; ///< part of the light that is mirrored, in [0, 1]
   /** Part that is let through, in [0, 1]; not more than 1 with the reflectivity. At a
@@ -80,7 +80,7 @@ struct RayTracingSettings {
   /** What is farther away does not take ambient light; a length, 0 (default): a fifth
    * of the radius of the scene. */
   double occlusion_distance = 0.0;
-  /** Splats that look away from the eye are not there: no ray meets them. */
+  /** Ignore splats that face away from the eye: no ray meets them. */
   bool cull_back_faces = false;
 };
 
