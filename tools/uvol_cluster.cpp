@@ -211,13 +211,13 @@ describeSizes(const std::map<std::int32_t, std::size_t>& sizes)
 {
   constexpr std::size_t most = 12;
   std::ostringstream text;
-  std::size_t told = 0;
+  std::size_t listed = 0;
   for (const auto& [label, size] : sizes) {
-    if (++told > most) {
+    if (++listed > most) {
       text << ", ... (" << sizes.size() << " in all)";
       break;
     }
-    text << (told == 1 ? "" : ", ") << label << ": " << size;
+    text << (listed == 1 ? "" : ", ") << label << ": " << size;
   }
   return sizes.empty() ? "none" : text.str();
 }

@@ -62,12 +62,12 @@ class ResultWarning(UserWarning):
     Examples
     --------
     >>> import warnings
-    >>> with warnings.catch_warnings(record=True) as told:
+    >>> with warnings.catch_warnings(record=True) as caught:
     ...     warnings.simplefilter("always")
     ...     surface = uvol.isosurface(np.eye(3), {"r": [1.0, 2.0, 3.0]}, iso=7.0)
-    >>> told[0].category.__name__, len(surface), len(surface.report["warnings"]) > 0
+    >>> caught[0].category.__name__, len(surface), len(surface.report["warnings"]) > 0
     ('ResultWarning', 0, True)
-    >>> warning = told[0].message
+    >>> warning = caught[0].message
     >>> surface.report["warnings"][0] == {"code": warning.code, "text": str(warning), "values": warning.values}
     True
     """

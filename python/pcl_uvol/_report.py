@@ -19,5 +19,5 @@ def warn(messages):
     while frame is not None and os.path.dirname(frame.f_code.co_filename) == _FOLDER:
         frame = frame.f_back
         level += 1
-    for told in messages:
-        warnings.warn(ResultWarning(told["text"], told["code"], told["values"]), stacklevel=level)
+    for message in messages:
+        warnings.warn(ResultWarning(message["text"], message["code"], message["values"]), stacklevel=level)

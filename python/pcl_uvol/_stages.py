@@ -368,8 +368,8 @@ def cluster(points, fields=None, *, attributes=(), labels=None, standardized=Tru
     samples, names = _with_attributes(samples, attributes, threads, progress)
     parameters = {"attributes": names, "is_standardized": standardized, "neighbors": k, "min_cluster_size": min_size,
                   "cut_distance": cut, "allow_single_cluster": single}
-    found, probabilities, tree, labelled, *told = _run(_core.find_clusters, samples, parameters, threads, progress)
-    return Clusters(found, probabilities, tree, Samples._of(labelled), *told)
+    found, probabilities, tree, labelled, *rest = _run(_core.find_clusters, samples, parameters, threads, progress)
+    return Clusters(found, probabilities, tree, Samples._of(labelled), *rest)
 
 
 def _labels(labels, count):

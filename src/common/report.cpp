@@ -84,11 +84,11 @@ Report::warn(const std::vector<Message>& messages)
 void
 Report::merge(const Report& other)
 {
-  const std::vector<std::string> told = of_samples_;
+  const std::vector<std::string> reported = of_samples_;
   for (const auto& [name, value] : other.counts)
     if (!contains(other.of_samples_, name))
       count(name, value);
-    else if (!contains(told, name))
+    else if (!contains(reported, name))
       countSamples(name, value);
   for (const auto& [step, value] : other.milliseconds)
     time(step, value);

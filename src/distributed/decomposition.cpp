@@ -152,14 +152,14 @@ Decomposition::Decomposition(const Decomposition& top,
 
 Decomposition::Decomposition(const Decomposition& top,
                              const Decomposition& subtree,
-                             bool tells,
+                             bool reports,
                              Communicator& communicator)
     : Decomposition(top.levels_ + subtree.levels_)
 {
   axes_ = top.axes_;
   std::copy(top.planes_.begin(), top.planes_.end(), planes_.begin());
   Bytes message;
-  if (tells) {
+  if (reports) {
     ByteWriter writer(message);
     writer.put(subtree.planes_);
     writer.put(subtree.begins_);

@@ -103,10 +103,10 @@ public:
   /** \brief The whole tree, which all processes get from those that found a part.
    * \param top that all have
    * \param subtree below one of its pieces
-   * \param tells for one process of each piece's, in the order of the pieces */
+   * \param reports for one process of each piece's, in the order of the pieces */
   Decomposition(const Decomposition& top,
                 const Decomposition& subtree,
-                bool tells,
+                bool reports,
                 Communicator& communicator);
 
   /** \brief The same with more levels, which trees over the pieces have found.

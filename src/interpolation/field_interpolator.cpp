@@ -471,20 +471,20 @@ FieldInterpolator::findVariogram(std::size_t field) const
           break;
         const double factor = group.frames[f].factor * group.frames[f].factor;
         const LengthUnit& unit = group.sampled.samples->getUnit();
-        FittedVariogram told = *found;
-        told.model.nugget /= factor;
-        told.model.psill /= factor;
-        told.model.range = unit.toInput(told.model.range);
+        FittedVariogram result = *found;
+        result.model.nugget /= factor;
+        result.model.psill /= factor;
+        result.model.range = unit.toInput(result.model.range);
         const auto toInput = [&](EmpiricalVariogram& empirical) {
           for (double& distance : empirical.distance)
             distance = unit.toInput(distance);
           for (double& value : empirical.value)
             value /= factor;
         };
-        toInput(told.empirical.all);
-        for (EmpiricalVariogram& empirical : told.empirical.along)
+        toInput(result.empirical.all);
+        for (EmpiricalVariogram& empirical : result.empirical.along)
           toInput(empirical);
-        return told;
+        return result;
       }
   return std::nullopt;
 }

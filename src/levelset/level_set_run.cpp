@@ -91,17 +91,17 @@ public:
     {
       StepTimer timer(report_, "evolution", progress_parts);
       ProgressReminder reminder(report_.progress, "evolution");
-      std::uint64_t told = 0;
+      std::uint64_t reported = 0;
       for (std::size_t i = 0; i < parameters_.max_steps && !summary_.converged; ++i) {
         advance(reminder);
-        const std::uint64_t done = std::max(told, partsDone());
-        timer.advance(done - told);
-        told = done;
-        reminder.setDone(static_cast<double>(told) / progress_parts);
+        const std::uint64_t done = std::max(reported, partsDone());
+        timer.advance(done - reported);
+        reported = done;
+        reminder.setDone(static_cast<double>(reported) / progress_parts);
         if (snapshot_steps_ > 0 && summary_.steps.size() % snapshot_steps_ == 0)
           snapshot_(summary_, expandToCloud(current()));
       }
-      timer.advance(progress_parts - told);
+      timer.advance(progress_parts - reported);
     }
     finish();
     report_.count("steps", summary_.steps.size());

@@ -220,15 +220,15 @@ warnOfRounding(const AttributeTable& table,
                Report& report)
 {
   const std::int32_t last = *std::max_element(labels.begin(), labels.end());
-  std::string told;
+  std::string listed;
   for (std::size_t column = 0; column < table.columns() && last > 0; ++column) {
     const std::string text = describeSteps(
         {table, column}, labels, static_cast<std::size_t>(last) + 1, threads);
     if (!text.empty())
-      told += (told.empty() ? "" : "; ") + text;
+      listed += (listed.empty() ? "" : "; ") + text;
   }
-  if (!told.empty())
-    report.warn("clusters_of_rounding", {{"steps", told}});
+  if (!listed.empty())
+    report.warn("clusters_of_rounding", {{"steps", listed}});
 }
 
 } // namespace pcl_uvol

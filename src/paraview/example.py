@@ -10,21 +10,21 @@ LoadPlugin(plugin, remote=False, ns=globals())
 samples = XMLPolyDataReader(FileName=[samples_file])
 
 
-def tell(name, filter):
+def describe(name, filter):
     filter.UpdatePipeline()
     print(name, filter.GetDataInformation().GetNumberOfPoints(), "points", flush=True)
 
 
 surface = UvolIsosurface(Input=samples, Scalars=["POINTS", array])
 surface.Isovalues = [float(isovalue)]
-tell("surface", surface)
+describe("surface", surface)
 
 levelset = UvolLevelSet(Input=samples, Scalars=["POINTS", array])
 levelset.Isovalue = float(isovalue)
-tell("level set", levelset)
+describe("level set", levelset)
 smooth = UvolIsosurface(Input=levelset, Scalars=["POINTS", "phi"], Isovalues=[0.0])
-tell("smooth surface", smooth)
+describe("smooth surface", smooth)
 
-tell("splats", UvolSplats(Input=surface))
+describe("splats", UvolSplats(Input=surface))
 
 SaveData(surface_file, proxy=surface)

@@ -263,21 +263,21 @@ holdOut(const PipelineInput& input,
   of_rest.automatic_scale = false;
   of_rest.validation = {};
   of_rest.mesh.reset();
-  std::vector<std::vector<HeldOutSample>> told(isosurface.isovalues.size());
+  std::vector<std::vector<HeldOutSample>> held_out(isosurface.isovalues.size());
   StepTimer step(report, "validation", folds.size());
-  ProgressCallback tell; // steps of a fold count as none of their own
+  ProgressCallback remind; // steps of a fold count as none of their own
   ProgressReminder reminder(report.progress, "validation");
   if (report.progress)
-    tell = [&](const std::string&, double) { reminder.remind(); };
+    remind = [&](const std::string&, double) { reminder.remind(); };
   for (std::size_t fold = 0; fold < folds.size(); ++fold) {
     const Division division = divide(measured, folds, fold);
     if (division.left_out.empty())
       continue;
     const auto surfaces = splitSurface(
-        extract(of_rest, std::make_shared<pcl::Indices>(division.rest), tell));
+        extract(of_rest, std::make_shared<pcl::Indices>(division.rest), remind));
     const auto interpolated =
-        interpolateLeftOut(cloud, division, isosurface, threads, tell);
-    const Remaining remaining(cloud, division, scale, threads, tell);
+        interpolateLeftOut(cloud, division, isosurface, threads, remind);
+    const Remaining remaining(cloud, division, scale, threads, remind);
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
       const double isovalue = isosurface.isovalues[i];
       const Sides sides(surfaces[i], scale, isosurface.outside, threads);
@@ -289,19 +289,19 @@ holdOut(const PipelineInput& input,
                               interpolated,
                               static_cast<float>(frame.apply(isovalue)),
                               isovalue};
-      const std::size_t first = told[i].size();
-      told[i].resize(first + division.left_out.size());
+      const std::size_t first = held_out[i].size();
+      held_out[i].resize(first + division.left_out.size());
       parallelBlocks(division.left_out.size(),
                      fold_block,
                      threads,
                      [&](std::size_t begin, std::size_t end) {
-                       askFor(question, begin, end, &told[i][first]);
+                       askFor(question, begin, end, &held_out[i][first]);
                      });
     }
     step.advance(1);
     reminder.setDone(static_cast<double>(fold + 1) / static_cast<double>(folds.size()));
   }
-  return told;
+  return held_out;
 }
 
 ValidationScore

@@ -120,9 +120,9 @@ PartInBox::finish(const StageSamples& read,
   communicator.allReduce(counts);
   const std::uint64_t images = image_firsts_.back(),
                       places = counts[1] == 0 ? images : countAllPlaces(communicator);
-  const bool tells = rank_ == 0;
-  result.report.setCount("samples", tells ? counts[0] - places : 0);
-  result.report.setCount("duplicates", tells ? counts[1] - (images - places) : 0);
+  const bool counts_all = rank_ == 0;
+  result.report.setCount("samples", counts_all ? counts[0] - places : 0);
+  result.report.setCount("duplicates", counts_all ? counts[1] - (images - places) : 0);
 }
 
 } // namespace pcl_uvol

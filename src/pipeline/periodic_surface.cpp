@@ -129,12 +129,12 @@ listPlaces(const Dataset& points, std::size_t first)
 SampleBox
 toSampleBox(const PeriodicBox& box, const std::array<double, 3>& origin)
 {
-  SampleBox told;
-  told.sides = box.sides;
+  SampleBox result;
+  result.sides = box.sides;
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (box.sides[axis] > 0.0)
-      told.low[axis] = box.low[axis] + origin[axis];
-  return told;
+      result.low[axis] = box.low[axis] + origin[axis];
+  return result;
 }
 
 std::uint64_t

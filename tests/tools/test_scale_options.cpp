@@ -121,7 +121,7 @@ TEST_F(ScaleOptions, RefuseWhatTheyCannotMean)
     }
 }
 
-TEST_F(ScaleOptions, AreTold)
+TEST_F(ScaleOptions, AreReported)
 {
   uvol_test::writeFile(folder_ / "places.csv", "x,y,z\n200,200,1\n");
   for (const auto& [tool, options] : jobs) {

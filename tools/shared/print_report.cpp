@@ -30,17 +30,17 @@ struct CountedWarning {
 std::vector<CountedWarning>
 countEqual(const std::vector<pcl_uvol::Message>& warnings)
 {
-  std::vector<CountedWarning> told;
+  std::vector<CountedWarning> counted;
   for (const pcl_uvol::Message& warning : warnings) {
     auto same =
-        std::find_if(told.begin(), told.end(), [&](const CountedWarning& other) {
+        std::find_if(counted.begin(), counted.end(), [&](const CountedWarning& other) {
           return other.message == warning;
         });
-    if (same == told.end())
-      same = told.insert(same, {warning});
+    if (same == counted.end())
+      same = counted.insert(same, {warning});
     ++same->times;
   }
-  return told;
+  return counted;
 }
 
 nlohmann::ordered_json

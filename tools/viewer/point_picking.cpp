@@ -84,12 +84,12 @@ describePoint(const pcl::PCLPointCloud2& points,
     text << (axis == 0 ? "" : "   ") << "xyz"[axis] << " "
          << static_cast<double>(p[axis]) + origin[axis];
   text.precision(6);
-  std::size_t told = 0;
+  std::size_t listed = 0;
   for (const pcl::PCLPointField& field : points.fields) {
     if (pcl_uvol::isPadding(field) || pcl_uvol::axisOf(field.name) >= 0 ||
         field.name == "rgb" || field.name == "rgba")
       continue;
-    if (++told > most_fields)
+    if (++listed > most_fields)
       break;
     text << '\n' << field.name;
     for (std::size_t k = 0; k < field.count && k < 3; ++k)

@@ -104,11 +104,11 @@ private:
   py::dict
   describe(const Report& report) const
   {
-    py::dict told = toDict(report);
-    told["parameters"] = toText(writeJson(look_));
+    py::dict entries = toDict(report);
+    entries["parameters"] = toText(writeJson(look_));
     if (rays_)
-      told["ray_parameters"] = toText(writeJson(*rays_));
-    return told;
+      entries["ray_parameters"] = toText(writeJson(*rays_));
+    return entries;
   }
 
   /** The picture without what explains it. */

@@ -131,9 +131,9 @@ separateCluster(const DatasetPtr& dataset,
   };
   const py::dict of_membership =
       runStage(membership, dataset, parameters, threads, progress, extract);
-  py::dict told = toDict(report);
-  told["parameters"] = of_membership["parameters"];
-  return py::make_tuple(share(std::move(surface)), told);
+  py::dict entries = toDict(report);
+  entries["parameters"] = of_membership["parameters"];
+  return py::make_tuple(share(std::move(surface)), entries);
 }
 
 } // namespace

@@ -92,9 +92,9 @@ estimateNormals(const DatasetPtr& dataset,
     report.progress = callback;
     result = pcl_uvol::estimateNormals(*dataset, taken, threads, report);
   });
-  py::dict told = toDict(report);
-  told["parameters"] = toText(taken.toJson());
-  return py::make_tuple(share(std::move(result)), told);
+  py::dict entries = toDict(report);
+  entries["parameters"] = toText(taken.toJson());
+  return py::make_tuple(share(std::move(result)), entries);
 }
 
 py::tuple

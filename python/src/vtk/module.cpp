@@ -45,11 +45,12 @@ encloseCluster(const DatasetPtr& dataset,
     if (!surface.points.empty())
       copyFields(dataset->cloud, surface.points, vertices.cloud);
   });
-  py::dict told = toDict(generation.getReport());
-  told["distance"] = surface.distance;
-  told["parameters"] = toText(how.toJson());
-  return py::make_tuple(
-      share(std::move(vertices)), toIndices(std::move(surface.mesh.triangles)), told);
+  py::dict entries = toDict(generation.getReport());
+  entries["distance"] = surface.distance;
+  entries["parameters"] = toText(how.toJson());
+  return py::make_tuple(share(std::move(vertices)),
+                        toIndices(std::move(surface.mesh.triangles)),
+                        entries);
 }
 
 } // namespace
