@@ -42,7 +42,7 @@ struct Arguments : uvol_tools::IsosurfaceOptions {
   uvol_tools::SizeOption size;
   uvol_tools::PeriodicOption periodic;
   std::vector<double> block;
-  bool drop_unsure = false, with_pieces = false, is_flat = false, is_checked = false;
+  bool drop_uncertain = false, with_pieces = false, is_flat = false, is_checked = false;
 };
 
 void
@@ -76,8 +76,8 @@ declare(Options& options, Arguments& arguments)
   options.flag(
       "flat", arguments.is_flat, "measure flat triangles instead of curved ones");
   options.flag(
-      "drop-unsure",
-      arguments.drop_unsure,
+      "drop-uncertain",
+      arguments.drop_uncertain,
       "leave out pieces whose error is as large as they are, as around debris");
   options.flag("check",
                arguments.is_checked,
@@ -113,8 +113,13 @@ checkBlock(const Options& options)
   if (!options.given("iso"))
     throw UsageError(
         "-block needs -iso, the values beyond which volumes are asked for.");
-  for (const char* const name :
-       {"smooth", "drop-pieces", "periodic", "pieces", "flat", "drop-unsure", "check"})
+  for (const char* const name : {"smooth",
+                                 "drop-pieces",
+                                 "periodic",
+                                 "pieces",
+                                 "flat",
+                                 "drop-uncertain",
+                                 "check"})
     if (options.given(name))
       throw UsageError(std::string("-") + name +
                        " is for surfaces, and -block takes none.");
@@ -337,7 +342,7 @@ measureSurfaces(const Options& options,
   pcl_uvol::SurfaceMeasuresParameters parameters;
   parameters.curved = !arguments.is_flat;
   parameters.find_intersections = arguments.is_checked;
-  parameters.drop_unsure = arguments.drop_unsure;
+  parameters.drop_uncertain = arguments.drop_uncertain;
   parameters.field = surface.field;
   parameters.outside = arguments.parameters.isosurface.outside;
   parameters.periodic = {surface.periodic[0], surface.periodic[1], surface.periodic[2]};

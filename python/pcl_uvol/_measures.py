@@ -157,7 +157,7 @@ def _parts(surface, what):
 
 
 @_parameters.with_proposals
-def measure(surface, *, samples=None, curved=True, find_intersections=False, drop_unsure=False, threads=0,
+def measure(surface, *, samples=None, curved=True, find_intersections=False, drop_uncertain=False, threads=0,
             progress=None):
     """Area, volume, axes, genus and integrals of fields of a surface, each with its error.
 
@@ -171,7 +171,7 @@ def measure(surface, *, samples=None, curved=True, find_intersections=False, dro
         Curve the triangles according to the normals of their vertices.
     find_intersections : bool
         Find triangles that intersect.
-    drop_unsure : bool
+    drop_uncertain : bool
         Remove pieces whose error is as large as the piece, such as debris.
     {threads, progress}
 
@@ -194,7 +194,7 @@ def measure(surface, *, samples=None, curved=True, find_intersections=False, dro
         samples = as_samples(samples, None)._on_map_of(vertices)
     parameters = {"curved": _parameters.flag(curved, "curved"),
                   "find_intersections": _parameters.flag(find_intersections, "find_intersections"),
-                  "drop_unsure": _parameters.flag(drop_unsure, "drop_unsure")}
+                  "drop_uncertain": _parameters.flag(drop_uncertain, "drop_uncertain")}
     made_with = getattr(surface, "parameters", {})
     if "isosurface" in made_with:  # so that the samples beyond the isovalue are known, and the periodic box
         parameters.update(field=made_with["isosurface"]["field"], outside=made_with["isosurface"]["outside"],

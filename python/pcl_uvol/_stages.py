@@ -177,7 +177,7 @@ class Clusters:
     labels : numpy.ndarray of int32, shape (n,)
         Zero-based label by decreasing size; -1: noise.
     probabilities : numpy.ndarray of float32, shape (n,)
-        How surely a sample belongs to its cluster.
+        Probability that a sample belongs to its cluster.
     tree : dict of numpy.ndarray
         All clusters at all densities, a row each: parent, birth_density, death_density,
         size, stability, label; empty where labels were given.

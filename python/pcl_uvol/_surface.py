@@ -108,7 +108,7 @@ class Surface(Drawable, Points):
         return _extract(_core.Extractor(), self._samples, parameters, threads, progress)
 
     @_parameters.with_proposals
-    def measure(self, curved=True, find_intersections=False, threads=0, progress=None, *, drop_unsure=False):
+    def measure(self, curved=True, find_intersections=False, threads=0, progress=None, *, drop_uncertain=False):
         """Area, volume, axes, genus and integrals of fields of the closed mesh `mesh()`, each with its
         error. To measure the points instead, use `pcl_uvol.measure`.
 
@@ -131,7 +131,7 @@ class Surface(Drawable, Points):
         (True, 0)
         """
         return self.mesh(threads=threads, progress=progress).measure(curved, find_intersections, threads, progress,
-                                                                    drop_unsure=drop_unsure)
+                                                                    drop_uncertain=drop_uncertain)
 
     def _comments(self):
         taken = self.parameters["isosurface"]
@@ -208,7 +208,7 @@ class Mesh(Surface):
         return self.points
 
     @_parameters.with_proposals
-    def measure(self, curved=True, find_intersections=False, threads=0, progress=None, *, drop_unsure=False):
+    def measure(self, curved=True, find_intersections=False, threads=0, progress=None, *, drop_uncertain=False):
         """Area, volume, axes, genus and integrals of fields, each with its error.
 
         Parameters
@@ -229,7 +229,7 @@ class Mesh(Surface):
         True
         """
         return _measures.measure(self, curved=curved, find_intersections=find_intersections,
-                                 drop_unsure=drop_unsure, threads=threads, progress=progress)
+                                 drop_uncertain=drop_uncertain, threads=threads, progress=progress)
 
     @_parameters.with_proposals
     def save(self, path, ascii=False, progress=None):

@@ -127,7 +127,7 @@ const MessageText warning_rows[] = {
     {"uncertain_pieces",
      "{uncertain} of {pieces} pieces (area {area} +- {error}) have errors as large as "
      "themselves: few samples surround them, or debris. {are_left_out|They are "
-     "excluded.|Try: {-drop-unsure} to exclude them.}"},
+     "excluded.|Try: {-drop-uncertain} to exclude them.}"},
     {"flat_surfaces",
      "{flat} of {surfaces} surfaces are flat: they have no volume and enclose no "
      "samples. If all samples are in one plane, the isosurface is a curve."},

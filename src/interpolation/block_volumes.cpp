@@ -238,7 +238,7 @@ estimateBlockVolumes(const CloudView& samples,
       }
     }
   }
-  found.known = blocks.size();
+  found.estimated = blocks.size();
   if (blocks.empty())
     throw InvalidArgument("no_block_estimated", {});
   const ErrorSum errors(blocks, variogram);

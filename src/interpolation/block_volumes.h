@@ -40,7 +40,7 @@ struct BlockVolume {
 /** \brief Blocks over the box of the samples, and what is beyond isovalues in them. */
 struct BlockVolumes {
   std::array<std::size_t, 3> blocks{}; ///< along each axis
-  std::size_t known = 0;               ///< those that the samples tell of
+  std::size_t estimated = 0;           ///< blocks whose mean is estimated
   std::vector<BlockVolume> isovalues;
 };
 

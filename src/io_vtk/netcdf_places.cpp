@@ -62,7 +62,7 @@ rate(const NetcdfFile& file,
   return is_axis_enough && file.readText(variable, "axis") == names.axis ? 10 : 0;
 }
 
-/** The surest one; of equally sure ones that with more numbers. */
+/** The most likely one; of equally likely ones the one with more numbers. */
 const NetcdfVariable*
 findVariable(const NetcdfFile& file, const AxisNames& names, bool is_axis_enough)
 {

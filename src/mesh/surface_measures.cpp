@@ -122,7 +122,7 @@ public:
   Measurement(MeasuredSurface surface,
               const CloudView& vertices,
               const std::array<double, 3>& origin,
-              bool drop_unsure)
+              bool drop_uncertain)
       : surface_(std::move(surface))
       , vertices_(vertices)
       , origin_(origin[0], origin[1], origin[2])
@@ -142,7 +142,7 @@ public:
       figures.pieces.push_back(describePiece(i));
     describeFields();
     const std::vector<std::size_t> rank = nameIsovalues();
-    findUncertain(rank, drop_unsure);
+    findUncertain(rank, drop_uncertain);
     sortPieces(rank);
   }
 
@@ -510,7 +510,7 @@ SurfaceMeasures::compute()
           : detail::measureMesh(vertices, triangles_, box, parameters_.curved),
       vertices,
       vertices_->origin,
-      parameters_.drop_unsure);
+      parameters_.drop_uncertain);
   CloudView samples;
   if (samples_) {
     samples = viewOf(samples_->cloud);

@@ -176,13 +176,13 @@ finishIsosurface(const Dataset& samples,
       chooseIsopoints(view, edges, parameters, threads, isopoints, report);
   if (gaps)
     gaps->judge(parameters, threads, isopoints, edges, choice, report);
-  const SupportedIsopoints known(
+  const SupportedIsopoints supported(
       view, parameters.isosurface, sampling, gaps ? &gaps->getSummary() : nullptr);
   const DroppedIsopoints dropped = dropIsopoints(isopoints,
                                                  edges,
                                                  choice,
                                                  parameters,
-                                                 known,
+                                                 supported,
                                                  removes_unlocated,
                                                  communicator,
                                                  threads,
@@ -191,14 +191,14 @@ finishIsosurface(const Dataset& samples,
     countSupports(isopoints,
                   withErrors(parameters).interpolation != Interpolation::Linear,
                   report);
-  const SupportCounts examined = findSupportCounts(found.tally);
+  const SupportCounts of_tally = findSupportCounts(found.tally);
   const SupportCounts own =
-      examined.known > 0 ? examined
-                         : findSupportCounts(isopoints,
-                                             edges,
-                                             choice,
-                                             found.is_on_cap,
-                                             PeriodicBox{{}, sidesOf(parameters)});
+      of_tally.examined > 0 ? of_tally
+                            : findSupportCounts(isopoints,
+                                                edges,
+                                                choice,
+                                                found.is_on_cap,
+                                                PeriodicBox{{}, sidesOf(parameters)});
   warnOfWeakSupport(addTogether(own, communicator), role, parameters, sampling, report);
   if (role == SurfaceRole::Isosurface)
     warnOfLosses(

@@ -217,7 +217,7 @@ dropIsopoints(pcl::PointCloud<PointIso>& isopoints,
               IsoEdges& edges,
               IsopointChoice& choice,
               const IsosurfacePipelineParameters& parameters,
-              const SupportedIsopoints& known,
+              const SupportedIsopoints& supported,
               bool removes_unlocated,
               Communicator& communicator,
               unsigned threads,
@@ -254,10 +254,11 @@ dropIsopoints(pcl::PointCloud<PointIso>& isopoints,
          "removed_by_error");
   if (parameters.automatic_max_error) {
     const PointIso* const first = isopoints.data();
-    const std::vector<std::uint8_t> is_known = known.find(isopoints, edges, threads);
+    const std::vector<std::uint8_t> is_supported =
+        supported.find(isopoints, edges, threads);
     drop(
         [&](const PointIso& point) {
-          return is_known[static_cast<std::size_t>(&point - first)] != 0;
+          return is_supported[static_cast<std::size_t>(&point - first)] != 0;
         },
         dropped.by_error,
         "removed_by_error");
@@ -287,8 +288,8 @@ warnOfWeakSupport(const SupportCounts& counts,
                                     std::move(message),
                                     !(parameters.periodic > 0.0).all()))
     report.warn({*warning});
-  if (4 * counts.thin > counts.known)
-    report.warn("thin_parts", {{"percent", 100 * counts.thin / counts.known}});
+  if (4 * counts.thin > counts.examined)
+    report.warn("thin_parts", {{"percent", 100 * counts.thin / counts.examined}});
 }
 
 void

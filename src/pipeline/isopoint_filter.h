@@ -22,14 +22,14 @@ struct DroppedIsopoints {
 /** \brief Leave out what belongs to images, isopoints in gaps that nothing
  * locates, and what max_error and drop_bridged do not want: counted as "unlocated",
  * "removed_by_error" and "removed_bridged". By all processes together.
- * \param known what an automatic bound of the error keeps
+ * \param supported what an automatic bound of the error keeps
  * \param removes_unlocated whether those that nothing locates are left out */
 DroppedIsopoints
 dropIsopoints(pcl::PointCloud<PointIso>& isopoints,
               IsoEdges& edges,
               IsopointChoice& choice,
               const IsosurfacePipelineParameters& parameters,
-              const SupportedIsopoints& known,
+              const SupportedIsopoints& supported,
               bool removes_unlocated,
               Communicator& communicator,
               unsigned threads,

@@ -144,7 +144,7 @@ errorOnEdge(const PointIso& point, const IsoEdge& edge)
 } // namespace
 
 bool
-isKnown(const PointIso& point)
+isPrecise(const PointIso& point)
 {
   return point.error <= precise_part * point.edge_length;
 }
@@ -187,10 +187,10 @@ SupportedIsopoints::find(const pcl::PointCloud<PointIso>& isopoints,
     else if (along_ > 0.0f)
       findSpacings(samples_, scale_, edges, first, last, threads, spacings);
   }
-  std::vector<std::uint8_t> known(isopoints.size());
+  std::vector<std::uint8_t> is_supported(isopoints.size());
   for (std::size_t i = 0; i < isopoints.size(); ++i)
-    known[i] = contain(isopoints[i], edges[i], jumps[i] != 0, spacings[i]);
-  return known;
+    is_supported[i] = contain(isopoints[i], edges[i], jumps[i] != 0, spacings[i]);
+  return is_supported;
 }
 
 bool
@@ -216,9 +216,9 @@ SupportedIsopoints::contain(const PointIso& point,
   const bool is_crossing = point.error <= point.edge_length &&
                            stretchedLength(samples_, edge, scale_) <= longest;
   if (has(IsoSupport::Bridged, point))
-    return is_crossing || (isKnown(point) &&
+    return is_crossing || (isPrecise(point) &&
                            point.error < (1.0f - rounding) * errorOnEdge(point, edge));
-  return is_crossing || isKnown(point) ||
+  return is_crossing || isPrecise(point) ||
          (is_jump && point.error <= (1.0f + rounding) * errorOnEdge(point, edge));
 }
 

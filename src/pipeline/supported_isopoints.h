@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Isopoints whose place the samples tell better than that they lie on both sides of it:
-// what an automatic bound of the error keeps.
+// Isopoints that an automatic bound of the error keeps: the samples locate them more
+// precisely than their edge does.
 #pragma once
 
 #include <pcl_uvol/common/cloud_view.h>
@@ -19,21 +19,21 @@
 
 namespace pcl_uvol {
 
-/** \brief Whether the error of an isopoint is at most half of its edge, whose ends tell
- * no more. */
+/** \brief Whether the error of an isopoint is at most half of its edge, whose ends
+ * alone locate it that well. */
 bool
-isKnown(const PointIso& point);
+isPrecise(const PointIso& point);
 
-/** \brief Tells which isopoints are known.
+/** \brief Finds the isopoints that the samples support.
  *
- * Besides those that isKnown() tells of, where samples lie all around the crossings
- * between two values that many samples have, as at the border of a material: all that
- * can be known is that the surface lies between the two samples. Where an edge bridges
- * a gap or slips past other samples that is not enough. Where samples lie on lines or
- * sheets the crossings between neighbours of one of these: their edges are short beside
- * the gaps, and the surface does cross there. Predicted isopoints have no edge between
- * measured samples: their error must be at most half of the gap, in the stretched
- * space. */
+ * These are the ones of isPrecise(), and others by the sampling. If samples are all
+ * around: crossings between two values that many samples have, as at the border of a
+ * material, because the surface can only be located between the two samples. That is
+ * not enough if an edge bridges a gap or passes between other samples. If samples are
+ * on lines or sheets: crossings between neighbours of one of these, because their edges
+ * are short compared with the gaps, and the surface crosses them. Predicted isopoints
+ * have no edge between measured samples: their error must be at most half of the gap,
+ * in the stretched space. */
 class SupportedIsopoints {
 public:
   /** \param samples between which the edges lie, which must outlive this
@@ -45,7 +45,7 @@ public:
                      const GapFilling* gaps);
 
   /** \param isopoints one isovalue after another
-   * \return one per isopoint: 1 if it is known */
+   * \return one per isopoint: 1 if it is supported */
   std::vector<std::uint8_t>
   find(const pcl::PointCloud<PointIso>& isopoints,
        const IsoEdges& edges,

@@ -20,8 +20,9 @@ add(const PointIso& point,
 {
   const auto support = static_cast<IsoSupport>(point.support);
   const bool is_bisector = orientation == IsoOrientation::Bisector;
-  ++counts.known;
-  const bool has_good_fit = method == IsoMethod::Fit && !is_bisector && isKnown(point);
+  ++counts.examined;
+  const bool has_good_fit =
+      method == IsoMethod::Fit && !is_bisector && isPrecise(point);
   if (support == IsoSupport::Rim)
     ++(has_good_fit ? counts.at_border : counts.beside_gaps);
   else if (support == IsoSupport::Bridged && has_good_fit)
@@ -64,7 +65,7 @@ SupportCounts
 findSupportCounts(const SurfaceTally& tally)
 {
   SupportCounts counts;
-  counts.known = tally.examined;
+  counts.examined = tally.examined;
   counts.beside_gaps = tally.examined_rim;
   counts.unconstrained = tally.examined_bridged;
   return counts;
@@ -74,7 +75,7 @@ SupportCounts
 addTogether(const SupportCounts& own, Communicator& communicator)
 {
   std::vector<std::uint64_t> counts{
-      own.known, own.at_border, own.beside_gaps, own.unconstrained, own.thin};
+      own.examined, own.at_border, own.beside_gaps, own.unconstrained, own.thin};
   communicator.allReduce(counts);
   return {counts[0], counts[1], counts[2], counts[3], counts[4]};
 }
@@ -89,22 +90,22 @@ describeWeakSupport(const SupportCounts& counts,
   const std::size_t at_border =
                         counts.at_border + (lie_all_around ? counts.beside_gaps : 0),
                     all = counts.at_border + counts.beside_gaps + counts.unconstrained;
-  if (have_border && 2 * at_border > counts.known)
-    return withPercent({"isopoints_at_border", {}}, at_border, counts.known);
-  if (2 * all <= counts.known)
+  if (have_border && 2 * at_border > counts.examined)
+    return withPercent({"isopoints_at_border", {}}, at_border, counts.examined);
+  if (2 * all <= counts.examined)
     return std::nullopt;
   if (have_border && lie_all_around && at_border > counts.unconstrained)
     message = {"isopoints_beside_samples", {}};
-  return withPercent(std::move(message), all, counts.known);
+  return withPercent(std::move(message), all, counts.examined);
 }
 
 std::optional<Message>
 describeWeakBorder(const SupportCounts& counts)
 {
   const std::size_t all = counts.at_border + counts.beside_gaps + counts.unconstrained;
-  if (2 * all <= counts.known)
+  if (2 * all <= counts.examined)
     return std::nullopt;
-  return withPercent({"unconstrained_border", {}}, all, counts.known);
+  return withPercent({"unconstrained_border", {}}, all, counts.examined);
 }
 
 std::vector<MessageValue>

@@ -23,9 +23,9 @@ enum class SurfaceRole {
   ClusterBorder ///< between the samples of a cluster and the others
 };
 
-/** \brief How many isopoints rest on what, of those whose support is known. */
+/** \brief How many isopoints rest on what, of those whose support was examined. */
 struct SupportCounts {
-  std::size_t known = 0;
+  std::size_t examined = 0;
   std::size_t at_border = 0; ///< on a rim, on good fits: no line of samples is there
   /** On other rims, or in gaps that good fits bridge: where samples lie all around, at
    * their border. */

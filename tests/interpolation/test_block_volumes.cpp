@@ -105,7 +105,7 @@ TEST(BlockVolumes, ErrorsCoverTheTruth)
                                               static_cast<std::size_t>(along)),
                                   {-0.4, 0.7},
                                   side);
-      const double volume = static_cast<double>(found.known) * std::pow(side, 3);
+      const double volume = static_cast<double>(found.estimated) * std::pow(side, 3);
       EXPECT_GT(volume, 0.75);
       for (const BlockVolume& all : found.isovalues) {
         const auto [share, integral] = integrate(field, all.isovalue);
@@ -147,7 +147,7 @@ TEST(BlockVolumes, OfBothSidesAddUp)
   const auto samples = makeSamples(waves, 1000, 1);
   const auto above = estimate(samples, {0.3}),
              below = estimate(samples, {0.3}, 0.1f, false);
-  const double all = 1e-3 * static_cast<double>(above.known);
+  const double all = 1e-3 * static_cast<double>(above.estimated);
   EXPECT_NEAR(all, above.isovalues[0].volume + below.isovalues[0].volume, 1e-6);
   EXPECT_NEAR(above.isovalues[0].volume_error, below.isovalues[0].volume_error, 1e-9);
   EXPECT_LT(below.isovalues[0].mean, 0.3);
@@ -173,7 +173,7 @@ TEST(BlockVolumes, TheSameForAnyOrderUnitShiftAndThreads)
     point.intensity = 4.0f * (point.intensity + 8.0f);
   }
   const auto scaled = estimate(large, {4.0 * 8.3}, 102.4f);
-  EXPECT_EQ(found.known, scaled.known);
+  EXPECT_EQ(found.estimated, scaled.estimated);
   EXPECT_NEAR(1.0, scaled.isovalues[0].volume / all.volume / 0x1p30, 1e-4);
   EXPECT_NEAR(1.0, scaled.isovalues[0].volume_error / all.volume_error / 0x1p30, 1e-3);
   EXPECT_NEAR(4.0 * (all.mean + 8.0), scaled.isovalues[0].mean, 1e-3);

@@ -356,7 +356,7 @@ TEST(SurfaceMeasures, DropsPiecesWhoseErrorExceedsTheirSize)
   EXPECT_EQ(2.0, uvol_test::numberOf(told, "pieces"));
   EXPECT_EQ(0.0, uvol_test::numberOf(told, "are_left_out"));
   SurfaceMeasuresParameters parameters;
-  parameters.drop_unsure = true;
+  parameters.drop_uncertain = true;
   measures.setParameters(parameters);
   measures.setInputSamples(makeUnitMasses(100, {1.0, 1.0, 1.0}));
   const SurfaceFigures sure = measures.compute();

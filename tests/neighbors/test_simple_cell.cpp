@@ -156,7 +156,7 @@ TEST(SimpleCell, MeasuresFaces)
   }
 }
 
-TEST(SimpleCell, IsUnsureOfPlanesThroughVertices)
+TEST(SimpleCell, IsUndecidedForPlanesThroughVertices)
 {
   SimpleCell cell;
   for (const double off : {-1e-13, 0.0, 1e-13}) {

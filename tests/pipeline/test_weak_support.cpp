@@ -14,7 +14,7 @@ using namespace pcl_uvol;
 std::string
 codeOf(SupportCounts counts, LocalDimension most, bool have_border = true)
 {
-  counts.known = 100;
+  counts.examined = 100;
   SamplingSummary sampling;
   sampling.most = most;
   const auto warning =

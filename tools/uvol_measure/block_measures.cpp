@@ -45,13 +45,14 @@ describeBlocks(const BlockVolumes& found, const std::string& field)
   const std::string grid =
       std::to_string(nx) + " x " + std::to_string(ny) + " x " + std::to_string(nz);
   Facts facts;
-  facts.emplace_back("blocks",
-                     grid + ", " + std::to_string(found.known) + " of " +
-                         std::to_string(all_blocks) +
-                         " estimated; the others are outside of the data, or "
-                         "less accurate than the mean of all samples",
-                     Fact::Members{{"all", {static_cast<double>(all_blocks)}},
-                                   {"estimated", {static_cast<double>(found.known)}}});
+  facts.emplace_back(
+      "blocks",
+      grid + ", " + std::to_string(found.estimated) + " of " +
+          std::to_string(all_blocks) +
+          " estimated; the others are outside of the data, or "
+          "less accurate than the mean of all samples",
+      Fact::Members{{"all", {static_cast<double>(all_blocks)}},
+                    {"estimated", {static_cast<double>(found.estimated)}}});
   std::vector<double> isovalues;
   for (const BlockVolume& all : found.isovalues)
     isovalues.push_back(all.isovalue);

@@ -35,7 +35,7 @@ struct PCL_UVOL_EXPORTS SurfaceMeasuresParameters {
   bool find_intersections = false;
   /** Leave out pieces whose area and volume have errors as large as themselves, as
    * those around debris. They have no piece number, and do not count in the area. */
-  bool drop_unsure = false;
+  bool drop_uncertain = false;
   /** The field of the samples that the surface is an isosurface of: samples beyond the
    * isovalue are then counted and summed. Empty, the default: it is not known. */
   std::string field;
@@ -53,7 +53,7 @@ struct PCL_UVOL_EXPORTS SurfaceMeasuresParameters {
     using Own = SurfaceMeasuresParameters;
     return std::make_tuple(Member{"curved", &Own::curved},
                            Member{"find_intersections", &Own::find_intersections},
-                           Member{"drop_unsure", &Own::drop_unsure},
+                           Member{"drop_uncertain", &Own::drop_uncertain},
                            Member{"field", &Own::field},
                            Member{"outside", &Own::outside},
                            Member{"periodic", &Own::periodic});
