@@ -10,7 +10,7 @@
 # usage: fuzz.sh -r: adds that list to the table, and begins it anew.
 # At the end: the share of the lines of our readers (src/io) that was reached; build/fuzz/coverage.txt has those of each file.
 # What reaches new code is kept in build/fuzz/corpus and built upon by the next call. Exit code 1 if
-# something was found; such a file goes into tests/fuzz/corpus/TARGET once the fault is mended.
+# something was found; such a file goes into tests/fuzz/corpus/TARGET once the fault is fixed.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 usage="usage: fuzz.sh [-n EXECUTIONS] SECONDS [TARGET...], or fuzz.sh -r"
@@ -62,7 +62,7 @@ count_all() {
 }
 
 # Packed files are unpacked in memory. Where memory was taken is known to few calls, and what was given back is
-# kept for as long as an input takes: both are told in full by a program that runs a finding again by itself.
+# kept for as long as an input takes. To get both in full, run the program of the target on the file alone.
 [ ! -w /dev/shm ] || export TMPDIR=/dev/shm
 export ASAN_OPTIONS=malloc_context_size=2:quarantine_size_mb=8
 found=0

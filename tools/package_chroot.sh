@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs each Debian package of a folder into a fresh Debian 12 of its own, with what it depends on and nothing
-# else, uses it there, and tells what came with it. Core and its project must come without VTK, and no package but
+# else, uses it there, and lists what came with it. Core and its project must come without VTK, and no package but
 # those of the viewer and of MPI may depend on Qt, X11 or MPI itself.
 # usage: package_chroot.sh FOLDER_OF_PACKAGES [TABLE]; as root; TABLE: a file for the table of what comes along
 # $MIRROR: Debian's packages, http://deb.debian.org/debian unless it says otherwise. Exit code 77: cannot be done here.

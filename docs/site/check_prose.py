@@ -172,7 +172,8 @@ def list_sources(root):
     """Path and judge of each file."""
     tables = {root / "src/common" / name for name in ("warning_texts.cpp", "error_texts.cpp", "file_error_texts.cpp")}
     for name in ("README.md", "python/README.md", "CONTRIBUTING.md", "CHANGELOG.md", "SECURITY.md", "examples/README.md",
-                 "tests/benchmarks/README.md"):
+                 "examples/data/README.md", "examples/ros2/README.md", "tests/benchmarks/README.md", "tests/fuzz/README.md",
+                 "tools/recipes/README.md"):
         yield root / name, judge_page
     for folder, pattern, judge_file in (("docs", "*.md", judge_page), ("docs/reference", "*.schema.json", judge_schema),
                                         ("examples/notebooks", "*.ipynb", judge_notebook), ("include", "*.h", judge_public_header),
