@@ -65,7 +65,7 @@ declare(Options& options, uvol_tools::PointJob& job, Arguments& arguments)
   options.members(arguments.request, {"snapshots"});
   options.output("csv", "out.csv", arguments.table, "write a table of all steps")
       .check(pcl_uvol::checkTablePath);
-  options.output("plot", "out.png|.svg|.pdf", arguments.plot, "draw how it converged")
+  options.output("plot", "out.png|.svg|.pdf", arguments.plot, "draw the convergence")
       .check(uvol_tools::checkPicturePath);
   arguments.plot_size.declareChart(options);
   options.group("Schemes", true);

@@ -58,7 +58,7 @@ declare(Options& options, Arguments& arguments)
                   arguments.drop_pieces,
                   0,
                   std::numeric_limits<std::int32_t>::max(),
-                  "of samples: leave out pieces of fewer triangles");
+                  "of samples: remove pieces of fewer triangles");
   arguments.periodic.declare(options);
   options.numbers("block",
                   "dx,dy,dz",
@@ -72,16 +72,14 @@ declare(Options& options, Arguments& arguments)
       "samples", "file", arguments.samples, "file of samples to count inside a mesh");
   options.group("Measures");
   options.flag(
-      "pieces", arguments.with_pieces, "rows of the table for every piece as well");
+      "pieces", arguments.with_pieces, "also write a row of the table for every piece");
   options.flag(
       "flat", arguments.is_flat, "measure flat triangles instead of curved ones");
   options.flag(
       "drop-uncertain",
       arguments.drop_uncertain,
-      "leave out pieces whose error is as large as they are, as around debris");
-  options.flag("check",
-               arguments.is_checked,
-               "look for triangles that go through one another as well");
+      "remove pieces whose error is as large as their area or volume, such as debris");
+  options.flag("check", arguments.is_checked, "also find triangles that intersect");
   options.group("Picture");
   options
       .output("png",

@@ -63,7 +63,7 @@ declare(Options& options, Arguments& arguments)
   options.choice("view",
                  {"iso", "front", "back", "left", "right", "top", "bottom"},
                  arguments.view,
-                 "side that the picture is seen from");
+                 "side that the camera looks from");
   arguments.size.declareChart(options);
   options.flag("ascii", arguments.ascii, "write PCD and PLY as text");
 }

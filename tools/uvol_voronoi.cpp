@@ -80,7 +80,7 @@ declare(Options& options, Arguments& arguments)
               arguments.picture,
               "draw slices, a colour per region")
       .check(uvol_tools::checkPicturePath);
-  options.integer("slices", arguments.slices, 1, 1000, "slices of the picture");
+  options.integer("slices", arguments.slices, 1, 1000, "number of slices in the image");
   options.choice(
       "axis", {"x", "y", "z"}, arguments.axis, "slices are perpendicular to it");
   arguments.size.declareChart(options);

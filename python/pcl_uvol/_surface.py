@@ -73,7 +73,7 @@ class Surface(Drawable, Points):
         Parameters
         ----------
         remesh : {"even", "none"}
-            Remesh to even triangles, or keep the raw triangles between the cells.
+            Remesh to isotropic triangles, or keep the raw triangles between the cells.
         edge_length : float
             Approximate edge length of even triangles, in units of the coordinates; 0: the local
             spacing. Edges are not made shorter than the spacing of the samples.

@@ -14,8 +14,8 @@ ColorOptions::declareMapping(Options& options)
   options.text("colormap",
                names,
                map_,
-               "colours of values, backwards with _r behind the name (default viridis, "
-               "OkabeIto for up to eight isovalues or whole numbers, tab10 for ten)");
+               "colours of values, reversed with _r after the name (default viridis, "
+               "OkabeIto for up to eight isovalues or integers, tab10 for ten)");
   options.numbers("range", "low,high", 2, range_, "values at the ends of the colours");
   options.flag("log", is_logarithmic_, "colour by the logarithm of the values");
 }

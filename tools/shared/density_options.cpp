@@ -14,9 +14,9 @@ DensityOptions::declare(Options& options)
   options
       .flag("density",
             is_asked_for_,
-            "add the field sph_density, of particles with a mass and a smoothing "
-            "length (fields with usual names; else all masses are 1, and lengths by "
-            "48 neighbours)")
+            "add the field sph_density, by SPH interpolation from masses and smoothing "
+            "lengths (fields with usual names; default: equal masses, lengths from 48 "
+            "neighbours)")
       .rare();
   options
       .number("density-length",

@@ -22,8 +22,8 @@ IsosurfaceOptions::declareSamples(Options& options,
                   0,
                   parameters.isosurface.isovalues,
                   "isovalues (" + need +
-                      "), ranges as well: 0.1:0.1:0.6 from first to last "
-                      "by a step, 0.01:1:5log five of them from 0.01 to 1");
+                      "), or ranges: 0.1:0.1:0.6 in steps of 0.1, "
+                      "0.01:1:5log five values with equal ratios");
   options.choice("outside",
                  parameters.isosurface.outside,
                  "side that normals point to: lower or higher values");
@@ -43,7 +43,7 @@ IsosurfaceOptions::declareMethod(Options& options)
       .choice("interpolation",
               parameters.isosurface.interpolation,
               "isopoints on local polynomial fits, or along the edges; auto: along the "
-              "edges where samples lie on lines or leave gaps")
+              "edges where the samples contradict the fit")
       .rare();
 }
 

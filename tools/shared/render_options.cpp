@@ -135,7 +135,7 @@ RenderOptions::declarePasses(Options& options)
                  "least 1 - cos between normals");
   options.numbers(
       "line-color", "r,g,b", 3, line_color_, "colour of lines, 0 to 1 (default black)");
-  options.flag("no-antialias", s.anti_aliasing, "leave borders jagged", false);
+  options.flag("no-antialias", s.anti_aliasing, "switch anti-aliasing off", false);
   options.number("antialias-threshold",
                  s.anti_aliasing_threshold,
                  1e-9,

@@ -77,21 +77,20 @@ SizeOption::declareSize(Options& options)
       name_,
       "WxH",
       text_,
-      withDefault("pixels of the picture, or lengths, as 85x60mm", text_));
+      withDefault("pixels of the image, or lengths such as 85x60mm", text_));
 }
 
 void
 SizeOption::declareDpi(Options& options)
 {
   options
-      .number(
-          "dpi",
-          paper_.dots_per_inch,
-          1.0,
-          1e5,
-          "resolution for print in dots per inch, with letters of at least 7 points "
-          "(default 300 where -" +
-              name_ + " has a unit)")
+      .number("dpi",
+              paper_.dots_per_inch,
+              1.0,
+              1e5,
+              "resolution for print in dots per inch, with text of at least 7 points "
+              "(default 300 where -" +
+                  name_ + " has a unit)")
       .rare();
 }
 

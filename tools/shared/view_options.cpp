@@ -90,7 +90,7 @@ ViewOptions::declareScene(Options& options, SizeOf size)
       "colour by a scalar field or an expression, log10(rho) or |grad(rho)|, by "
       "rgb or by none (default: rgb if there, else isovalue if there are several)");
   colors_.declare(options);
-  options.flag("no-bar", has_bar_, "leave out the colour bar", false).rare();
+  options.flag("no-bar", has_bar_, "omit the colour bar", false).rare();
   options
       .numbers("surface-color",
                "r,g,b",

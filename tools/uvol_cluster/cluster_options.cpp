@@ -45,13 +45,11 @@ ClusterOptions::declare(Options& options)
       "field with the cluster labels, instead of -attributes (default: label)");
   options.group("Surface of a cluster");
   options.numbers("cluster", "n", 1, cluster, "choose the points of a cluster");
-  options.choice(
-      "surface",
-      {"membership", "distance", "hull", "hull-distance"},
-      surface,
-      "write a surface of -cluster: between its samples and the others, at a "
-      "distance from its points, through its outer points, at a distance "
-      "from those");
+  options.choice("surface",
+                 {"membership", "distance", "hull", "hull-distance"},
+                 surface,
+                 "surface of -cluster: border to the other samples, offset surface of "
+                 "its points, hull of its outer points, or offset surface of the hull");
   options.text("probability",
                "name",
                probability,

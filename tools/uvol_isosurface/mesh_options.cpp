@@ -20,16 +20,16 @@ MeshOptions::declare(Options& options)
   options
       .choice("remesh",
               parameters_.remesh,
-              "with -mesh: even triangles, or those between the cells as they are")
+              "with -mesh: remesh to isotropic triangles, or keep the triangles "
+              "between the cells")
       .rare();
   options
-      .number(
-          "edge-length",
-          parameters_.edge_length,
-          0.0,
-          std::numeric_limits<double>::max(),
-          "with -mesh: length of edges, about; 0: that of the local spacing, and edges "
-          "are not made shorter than the spacing of the samples")
+      .number("edge-length",
+              parameters_.edge_length,
+              0.0,
+              std::numeric_limits<double>::max(),
+              "with -mesh: approximate length of edges, not less than the local "
+              "spacing; 0: the local spacing")
       .rare();
   options
       .flag("open",
@@ -42,14 +42,14 @@ MeshOptions::declare(Options& options)
                drop_pieces_,
                0,
                std::numeric_limits<std::int32_t>::max(),
-               "with -mesh: leave out pieces of fewer triangles")
+               "with -mesh: remove pieces of fewer triangles")
       .rare();
   options
-      .choice("periodic-mesh",
-              periodic_mesh_,
-              "with -mesh and -periodic: cut the mesh at the faces of the box, or "
-              "weld it: opposite rims match, and the field image_of names equal "
-              "vertices")
+      .choice(
+          "periodic-mesh",
+          periodic_mesh_,
+          "with -mesh and -periodic: cut the mesh at the faces of the box, or weld it: "
+          "opposite boundary loops match, and the field image_of names equal vertices")
       .rare();
   options.flag(
       "measure",
@@ -57,10 +57,7 @@ MeshOptions::declare(Options& options)
       "report area, volume and integrals of fields as uvol_measure does, with -mesh "
       "also of the samples inside; points get their share of the area and piece as "
       "fields");
-  options
-      .flag("check",
-            is_checked_,
-            "with -mesh: look for triangles that go through one another")
+  options.flag("check", is_checked_, "with -mesh: find triangles that intersect")
       .rare();
 }
 

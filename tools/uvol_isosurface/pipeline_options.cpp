@@ -32,11 +32,11 @@ PipelineOptions::declare(Options& options)
   options.file("out", output);
   declareSamples(options);
   options
-      .choice(
-          "neighbors",
-          parameters.isosurface.neighbors,
-          "candidates from touching cells of the tree, from adjacent regions of a "
-          "discrete Voronoi diagram, or from exact Voronoi cells: slower, much slower")
+      .choice("neighbors",
+              parameters.isosurface.neighbors,
+              "candidates from touching cells of the tree, from adjacent regions of a "
+              "discrete Voronoi diagram (slower), or from exact Voronoi cells (much "
+              "slower)")
       .rare();
   options
       .integer("grid",
@@ -44,7 +44,7 @@ PipelineOptions::declare(Options& options)
                1,
                pcl_uvol::GridShape::largest_side,
                "cells of -neighbors voronoi along the longest side (default: 4 samples "
-               "to a cell)")
+               "per cell)")
       .rare();
   declareMethod(options);
   options.flag("smooth",
@@ -59,19 +59,17 @@ PipelineOptions::declare(Options& options)
               "along the edges where no fit exists; auto: chosen from the sampling, "
               "pca with linear interpolation")
       .rare();
-  options.integer("k", k_, 2, 1000, "isopoints that a normal by pca is fitted to")
-      .rare();
+  options.integer("k", k_, 2, 1000, "number of isopoints for a normal by pca").rare();
   options
-      .text(
-          "max-error",
-          "v|auto",
-          max_error_,
-          "leave out isopoints of a larger estimated error, in units of length; auto: "
-          "larger than half the distance between the two samples of the isopoint")
+      .text("max-error",
+            "v|auto",
+            max_error_,
+            "remove isopoints with a larger estimated error, in units of length; auto: "
+            "larger than half the distance between the two samples of the isopoint")
       .rare();
   options.flag("drop-bridged",
                parameters.drop_bridged,
-               "leave out isopoints in gaps of the sampling");
+               "remove isopoints in gaps of the sampling");
   options
       .flag("fill-gaps",
             parameters.fill_gaps,
@@ -90,8 +88,8 @@ PipelineOptions::declare(Options& options)
       .text("validate-by",
             "random|blocks|FIELD",
             validate_by_,
-            "with -validate: samples in one part are random, lie in compact blocks, "
-            "or share a value of a field, as those of a dive do (default random)")
+            "with -validate, samples held out together: random ones, compact blocks, "
+            "or those with the same value of a field, such as a dive (default random)")
       .rare();
   options.group("Run");
   options
@@ -106,7 +104,7 @@ PipelineOptions::declare(Options& options)
             "folder",
             scratch_,
             "with -max-memory: folder of the samples on disk, 24 bytes each (default: "
-            "beside the output)")
+            "the folder of the output)")
       .rare();
   options.group("Input");
   density.declare(options);
@@ -117,7 +115,7 @@ PipelineOptions::declare(Options& options)
               std::numeric_limits<double>::lowest(),
               std::numeric_limits<double>::max(),
               "add samples of that value one spacing outside the data, where the field "
-              "ends; isopoints lie on their edges then, as with -interpolation linear "
+              "ends; isopoints are then on their edges, as with -interpolation linear "
               "(default: none)")
       .rare();
   mesh_.declare(options);

@@ -38,15 +38,15 @@ InterpolationOptions::declare(Options& options)
       "cross-validation");
   options.flag("extrapolate",
                parameters_.extrapolate,
-               "give values outside of the data as well, where they are nan else");
+               "also give values outside of the data (default: nan)");
   options.flag("gradients", parameters_.gradients, "write gradients as well");
   options
       .integer("k",
                k_,
                1,
                512,
-               "nearest samples that kriging (default 32) or shepard (16) take; with "
-               "sph the one at which a kernel ends (48)")
+               "number of nearest samples for kriging (default 32) and shepard (16); "
+               "with sph, kernels end at this neighbour (48)")
       .rare();
   options
       .text("variogram",
@@ -73,8 +73,8 @@ InterpolationOptions::declare(Options& options)
                "dx,dy,dz",
                3,
                block_,
-               "with kriging: estimate the mean of a block of these sides about each "
-               "place, with its standard error")
+               "with kriging: estimate the mean of a block with these sides around "
+               "each position, with its standard error")
       .rare();
   options
       .number("power",
@@ -107,8 +107,8 @@ InterpolationOptions::declare(Options& options)
       .text("validate-by",
             "random|blocks|FIELD",
             validate_by_,
-            "parts of random samples, of compact blocks, or of equal values of a "
-            "field, as drill holes (default random)")
+            "samples held out together: random ones, compact blocks, or those with the "
+            "same value of a field, such as a drill hole (default random)")
       .rare();
 }
 
