@@ -2,10 +2,7 @@
 // Clusters of samples by their attributes, and surfaces around them (thesis 2.6).
 #include "common/scalar_field.h"
 #include "io/table_file.h"
-#include "isosurface/memory_need.h"
-#include "multivariate/memory_need.h"
 #include "pipeline/membership_surface.h"
-#include "shared/memory_guard.h"
 #include "shared/point_files.h"
 #include "shared/progress_bar.h"
 #include "uvol_cluster/cluster_options.h"
@@ -247,30 +244,6 @@ countLabels(const std::vector<std::int32_t>& labels, Report& report)
   report.count("in_no_cluster", static_cast<std::uint64_t>(without));
 }
 
-/** What the tool holds beside the points: labels and indices, and at its end the points
- * with two fields more; grids of surfaces are looked at when their size is known. */
-uvol_tools::MemoryGuard::Bytes
-forecastMemory(const Arguments& arguments)
-{
-  return [&](double points, double step) {
-    constexpr double number_bytes = 4.0;
-    double working = (2.0 * step + 4.0 * number_bytes) * points;
-    if (arguments.attributes.areGiven())
-      working =
-          std::max({working,
-                    arguments.attributes.getDerivativeBytes(points),
-                    pcl_uvol::clusteringBytes(
-                        points,
-                        static_cast<double>(arguments.attributes.required().size()),
-                        static_cast<double>(arguments.k))});
-    if (arguments.surface == "membership")
-      working = std::max(working,
-                         (number_bytes + step) * points +
-                             pcl_uvol::isosurfaceBytes(points, 1));
-    return 2.0 * number_bytes * points + working;
-  };
-}
-
 int
 run(int argc, char** argv)
 {
@@ -286,19 +259,12 @@ run(int argc, char** argv)
     return 0;
   arguments.finish(options);
   const pcl_uvol::LoadOptions load = uvol_tools::withoutPositions(arguments.reading);
-  uvol_tools::MemoryGuard memory("Clustering");
-  memory.checkFile(arguments.input,
-                   arguments.reading.getWhere().empty() ? forecastMemory(arguments)
-                                                        : nullptr,
-                   load);
-
   Report report;
   uvol_tools::ProgressBar bar;
   report.progress = std::ref(bar);
   Dataset dataset = uvol_tools::loadPoints(
       arguments.input, report, load, arguments.reading.getWhere(), options.threads());
   pcl_uvol::checkSavePath(arguments.output, dataset.cloud.fields);
-  memory.checkCloud(dataset, forecastMemory(arguments));
   arguments.attributes.addFields(options, dataset, report);
   std::vector<pcl_uvol::ClusterNode> tree;
   const auto labels = findLabels(options, arguments, dataset, tree, report);
@@ -315,7 +281,7 @@ run(int argc, char** argv)
   }
   if (!arguments.tree.empty())
     writeTree(arguments.tree, tree);
-  facts.push_back(memory.describe());
+  facts.push_back(uvol_tools::describeMemory());
   uvol_tools::printReport(options, report, facts);
   return 0;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Points from one format into another, as they are.
 #include "shared/density_options.h"
-#include "shared/memory_guard.h"
 #include "shared/options.h"
 #include "shared/point_files.h"
 #include "shared/series.h"
@@ -38,8 +37,6 @@ run(int argc, char** argv, uvol_tools::SeriesStep* /*step*/)
     return 0;
   const pcl_uvol::LoadOptions load = reading.makeLoadOptions();
   pcl_uvol::checkSavePath(output);
-  uvol_tools::MemoryGuard memory("Converting");
-  memory.checkFile(input, nullptr, load);
   pcl_uvol::Report report;
   pcl_uvol::Dataset dataset = uvol_tools::loadPoints(
       input, report, load, reading.getWhere(), options.threads());

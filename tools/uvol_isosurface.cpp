@@ -9,7 +9,6 @@
 #include "uvol_isosurface/result_facts.h"
 #include <pcl_uvol/io/dataset.h>
 
-#include <cmath>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -19,22 +18,10 @@ namespace {
 using pcl_uvol::IsosurfaceResult;
 using pcl_uvol::Report;
 using pcl_uvol::StepTimer;
-using uvol_tools::Fact;
 using uvol_tools::Facts;
 using uvol_tools::joined;
 using uvol_tools::Options;
 using Arguments = uvol_tools::PipelineOptions;
-
-/** As MemoryGuard::describe() for a run within a bound. */
-Fact
-describeBound(double bound)
-{
-  const auto peak = static_cast<double>(pcl_uvol::peakMemory());
-  return {"memory",
-          "bound " + pcl_uvol::formatBytes(bound) + ", peak " +
-              pcl_uvol::formatBytes(peak),
-          Fact::Members{{"bound", {bound}}, {"peak", {peak}}}};
-}
 
 void
 saveMesh(const std::string& path,
@@ -62,8 +49,7 @@ struct Job {
   uvol_tools::ProgressBar bar;
   Report report;
   Facts facts;
-  std::optional<uvol_tools::MemoryGuard> memory; ///< none within a bound
-  std::uint64_t bound = 0;                       ///< of -max-memory, if it is given
+  std::uint64_t bound = 0; ///< of -max-memory; 0: it is not given
 
   /** Extract, and write everything but the picture. */
   pcl_uvol::Dataset
@@ -71,9 +57,9 @@ struct Job {
   {
     const StepTimer total(report, "total");
     Facts figures;
-    IsosurfaceResult result =
-        memory ? runInMemory(options, arguments, *memory, report, figures)
-               : runFromDisk(options, arguments, report);
+    IsosurfaceResult result = bound > 0
+                                  ? runFromDisk(options, arguments, report)
+                                  : runInMemory(options, arguments, report, figures);
     report.merge(result.report);
     arguments.picture.addColor(options, result.surface, report);
 
@@ -101,7 +87,7 @@ struct Job {
   draw(const pcl_uvol::Dataset& surface)
   {
     std::optional<pcl_uvol::MemoryLimit> limit;
-    if (!memory)
+    if (bound > 0)
       limit.emplace(bound);
     const StepTimer total(report, "total");
     facts.emplace_back("backend", arguments.picture.draw(options, surface, report));
@@ -110,8 +96,7 @@ struct Job {
   void
   print()
   {
-    facts.push_back(memory ? memory->describe()
-                           : describeBound(static_cast<double>(bound)));
+    facts.push_back(uvol_tools::describeMemory(static_cast<double>(bound)));
     uvol_tools::printReport(options, report, facts);
   }
 };
@@ -128,10 +113,6 @@ run(int argc, char** argv, uvol_tools::SeriesStep* step)
   arguments.finish(job->options);
   if (job->options.given("max-memory"))
     job->bound = arguments.makeOutOfCoreSettings(job->options).max_memory;
-  else
-    job->memory.emplace(arguments.needsAllSamples()
-                            ? "An isosurface"
-                            : "Without -max-memory an isosurface");
   job->report.progress = std::ref(job->bar);
   pcl_uvol::Dataset surface = job->extract();
   const bool is_drawn = arguments.picture.isAskedFor();

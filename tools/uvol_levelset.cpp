@@ -4,15 +4,12 @@
 #include "charts/picture_file.h"
 #include "io/table_file.h"
 #include "pipeline/level_set_job.h"
-#include "pipeline/memory_need.h"
 #include "shared/level_set.h"
 #include "shared/periodic_option.h"
 #include "shared/point_job.h"
 #include "shared/sampling_fact.h"
 #include "shared/scale_option.h"
 #include "shared/size_option.h"
-
-#include <algorithm>
 
 namespace {
 
@@ -99,24 +96,19 @@ run(int argc, char** argv)
       "Smooth a noisy or unevenly sampled field near an isosurface by a level set.\n"
       "Output: phi, roughly the distance to the surface (stretched space),\n"
       "positive at higher values.");
-  uvol_tools::PointJob job(options, "A level set");
+  uvol_tools::PointJob job(options);
   declare(options, job, arguments);
   if (!options.parse(argc, argv))
     return 0;
   finish(options, arguments);
   pcl_uvol::LevelSetRequest& request = arguments.request;
   pcl_uvol::LevelSetParameters& wanted = request.level_set;
-  const auto samples = std::make_shared<pcl_uvol::Dataset>(job.read([&](double points,
-                                                                        double step) {
-    return std::max({pcl_uvol::levelSetJobBytes(points, step, request),
-                     uvol_tools::derivativeBytes(wanted.field, points),
-                     uvol_tools::derivativeBytes(wanted.initial.field_name, points)});
-  }));
+  const auto samples = std::make_shared<pcl_uvol::Dataset>(job.read());
   request.periodic = arguments.periodic.findSides(*samples);
   for (std::string* field : {&wanted.field, &wanted.initial.field_name})
     uvol_tools::addField(*samples, *field, options, job.report, request.periodic);
   wanted.scale = arguments.scale.findStretch(pcl_uvol::viewOf(samples->cloud)).scale;
-  job.check(*samples);
+  pcl_uvol::checkSavePath(job.getOutput(), samples->cloud.fields);
   const auto save = [&](std::size_t steps, const auto& surface) {
     saveDataset(uvol_tools::numberedPath(job.getOutput(), steps), surface, {});
   };

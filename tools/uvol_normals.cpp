@@ -3,23 +3,8 @@
 #include "shared/point_job.h"
 #include "shared/scale_option.h"
 #include "surface/dataset_normals.h"
-#include "surface/memory_need.h"
-
-#include <algorithm>
 
 namespace {
-
-/** What the tool holds beside the points: while it estimates, then a cloud of normals,
- * the same as bytes, and the output. */
-uvol_tools::MemoryGuard::Bytes
-forecastMemory(std::uint64_t k)
-{
-  return [k](double points, double step) {
-    constexpr double output_bytes = 176.0;
-    return std::max(pcl_uvol::surfaceNormalsBytes(points, static_cast<double>(k)),
-                    (output_bytes + step) * points);
-  };
-}
 
 int
 run(int argc, char** argv)
@@ -33,7 +18,7 @@ run(int argc, char** argv)
       "Estimate normals of a surface given as points, from the principal components "
       "of the nearest\n"
       "neighbours. Normals in the file orient the new ones.");
-  uvol_tools::PointJob job(options, "Estimating normals");
+  uvol_tools::PointJob job(options);
   job.declareInput();
   options.group("Normals");
   options.members(parameters, {"k"});
@@ -47,7 +32,7 @@ run(int argc, char** argv)
   if (!options.parse(argc, argv))
     return 0;
   scale.finish(options);
-  const pcl_uvol::Dataset dataset = job.read(forecastMemory(parameters.k));
+  const pcl_uvol::Dataset dataset = job.read();
   uvol_tools::Facts of_scale;
   const auto stretch = scale.resolve(
       pcl_uvol::viewOf(dataset.cloud), "", options.threads(), job.report, of_scale);

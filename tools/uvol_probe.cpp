@@ -2,14 +2,12 @@
 // The field between scattered samples: at points, along lines, in planes and in grids,
 // and how sure it is.
 #include "interpolation/answer_summary.h"
-#include "interpolation/memory_need.h"
 #include "io/cell_loader.h"
 #include "io/formats.h"
 #include "io/memory_need.h"
 #include "neighbors/samples_in_box.h"
 #include "neighbors/sampling.h"
 #include "pipeline/periodic_surface.h"
-#include "shared/memory_guard.h"
 #include "shared/options.h"
 #include "shared/periodic_option.h"
 #include "shared/point_files.h"
@@ -133,31 +131,6 @@ addRanges(const AnswerSummary& summary, Facts& facts)
   facts.emplace_back("ranges", ranges);
 }
 
-/** Places that are asked for at once, and bytes of each in the output. */
-struct QuerySize {
-  double count = 0.0, point_step = 0.0;
-};
-
-/** \param lattice null for points, and where it is not known yet */
-QuerySize
-findQuerySize(const Arguments& arguments, const Slice* lattice)
-{
-  const std::string& file = arguments.queries.getPoints();
-  if (!file.empty()) {
-    const auto header = pcl_uvol::peekHeader(file);
-    return header ? QuerySize{static_cast<double>(header->points),
-                              static_cast<double>(header->point_step)}
-                  : QuerySize();
-  }
-  if (!lattice)
-    return {};
-  const auto places = static_cast<double>(lattice->lattice.size());
-  if (uvol_tools::isWrittenInParts(arguments.queries, arguments.output))
-    return {std::min(places, static_cast<double>(pcl_uvol::detail::lattice_block)),
-            0.0};
-  return {places, sizeof(float) * 3 + sizeof(double)};
-}
-
 /** How samples are read: -xyz may be meant for the file of -points only. */
 pcl_uvol::LoadOptions
 findSampleOptions(const Arguments& arguments, const pcl_uvol::LoadOptions& all)
@@ -170,37 +143,24 @@ findSampleOptions(const Arguments& arguments, const pcl_uvol::LoadOptions& all)
   return options;
 }
 
-/** What the tool holds beside the samples. */
-uvol_tools::MemoryGuard::Bytes
-forecastMemory(const Arguments& arguments,
-               double fields,
-               const QuerySize& queries,
-               double cell_bytes = 0.0)
+/** \param lattice null for points */
+pcl_uvol::detail::ExpectedQueries
+expectQueries(const Arguments& arguments, const Slice* lattice)
 {
-  return [&arguments, fields, queries, cell_bytes](double points, double) {
-    using pcl_uvol::QueryShape;
-    const Kind kind = arguments.queries.getKind();
-    const QueryShape shape = kind == Kind::Line    ? QueryShape::Line
-                             : kind == Kind::Plane ? QueryShape::Plane
-                                                   : QueryShape::Space;
-    const InterpolationParameters& parameters = arguments.model.getParameters();
-    double working = arguments.model.getDerivativeBytes(points);
-    if (arguments.model.hasValidation())
-      working =
-          std::max(working,
-                   pcl_uvol::interpolationBytes(
-                       points, fields, parameters, points / 2.0, QueryShape::Space));
-    if (kind != Kind::None)
-      working = std::max(working,
-                         pcl_uvol::interpolationBytes(
-                             points, fields, parameters, queries.count, shape));
-    // Places and distances, and points with their answers as they are written.
-    const double query_bytes =
-        queries.point_step > 0.0
-            ? 2.0 * queries.point_step + (4.0 + 2.0 * fields) * sizeof(double) + 4.0
-            : 0.0;
-    return sizeof(int) * points + cell_bytes + working + query_bytes * queries.count;
-  };
+  using pcl_uvol::detail::QueryShape;
+  const Kind kind = arguments.queries.getKind();
+  const QueryShape shape = kind == Kind::Line    ? QueryShape::Line
+                           : kind == Kind::Plane ? QueryShape::Plane
+                                                 : QueryShape::Space;
+  if (!lattice) {
+    const auto header = pcl_uvol::peekHeader(arguments.queries.getPoints());
+    return {shape, header ? static_cast<double>(header->points) : 0.0};
+  }
+  const std::size_t most =
+      uvol_tools::isWrittenInParts(arguments.queries, arguments.output)
+          ? pcl_uvol::detail::lattice_block
+          : lattice->lattice.size();
+  return {shape, static_cast<double>(std::min(lattice->lattice.size(), most))};
 }
 
 /** The box of the samples, as they are told.
@@ -261,14 +221,6 @@ run(int argc, char** argv, uvol_tools::SeriesStep* step)
   const Kind kind = arguments.queries.getKind();
   const pcl_uvol::LoadOptions load = arguments.reading.makeLoadOptions();
   const pcl_uvol::LoadOptions of_samples = findSampleOptions(arguments, load);
-  uvol_tools::MemoryGuard memory("Interpolation");
-  if (arguments.reading.getWhere().empty())
-    memory.checkFile(arguments.input,
-                     forecastMemory(arguments, 1.0, findQuerySize(arguments, nullptr)),
-                     of_samples);
-  else
-    memory.checkFile(arguments.input, nullptr, of_samples);
-
   Report report;
   uvol_tools::ProgressBar bar;
   report.progress = std::ref(bar);
@@ -294,12 +246,6 @@ run(int argc, char** argv, uvol_tools::SeriesStep* step)
     lattice = arguments.queries.makeLattice(findBounds(samples, boxed.getSides()));
   const auto cells =
       loadCells(arguments, of_samples, samples, boxed.isPeriodic(), report);
-  memory.checkCloud(
-      samples,
-      forecastMemory(arguments,
-                     static_cast<double>(parameters.fields.size()),
-                     findQuerySize(arguments, lattice ? &*lattice : nullptr),
-                     cells ? cells->getBytes() : 0.0));
   const pcl_uvol::CloudView view = pcl_uvol::viewOf(samples.cloud);
   pcl::Indices indices(view.count);
   std::iota(indices.begin(), indices.end(), 0);
@@ -335,7 +281,13 @@ run(int argc, char** argv, uvol_tools::SeriesStep* step)
       facts.push_back(fact);
   if (kind != Kind::None || arguments.variogram.isAskedFor()) {
     FieldInterpolator interpolator(
-        view, indices, parameters, options.threads(), report);
+        view,
+        indices,
+        parameters,
+        options.threads(),
+        report,
+        kind == Kind::None ? pcl_uvol::detail::ExpectedQueries()
+                           : expectQueries(arguments, lattice ? &*lattice : nullptr));
     interpolator.setCells(cells);
     const bool is_stretched = (parameters.scale != 1.0f).any();
     for (const Fact& fact : arguments.variogram.write(interpolator, is_stretched))
@@ -365,7 +317,7 @@ run(int argc, char** argv, uvol_tools::SeriesStep* step)
     facts.push_back(uvol_tools::describeBox(
         pcl_uvol::toSampleBox(boxed.getBox(), boxed.getOrigin())));
   total.reset();
-  facts.push_back(memory.describe());
+  facts.push_back(uvol_tools::describeMemory());
   uvol_tools::printReport(options, report, facts);
   return 0;
 }

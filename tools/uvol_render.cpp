@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A picture of a surface given as points (thesis 4.3).
 #include "charts/picture_file.h"
-#include "interpolation/memory_need.h"
-#include "shared/memory_guard.h"
 #include "shared/point_files.h"
 #include "shared/render_options.h"
 #include "shared/series.h"
-#include "surface/memory_need.h"
 #include <pcl_uvol/io/dataset.h>
 
 #include <filesystem>
@@ -50,7 +47,6 @@ struct Job {
       "a one-file web page that rotates in any browser."};
   bool is_page = false;
   Report report;
-  uvol_tools::MemoryGuard memory{"Drawing"};
 
   void
   draw(const pcl_uvol::Dataset& surface)
@@ -65,7 +61,7 @@ struct Job {
                             {{"input", input},
                              {"output", output},
                              {"backend", backend},
-                             memory.describe()});
+                             uvol_tools::describeMemory()});
   }
 };
 
@@ -73,7 +69,7 @@ int
 run(int argc, char** argv, uvol_tools::SeriesStep* step)
 {
   const auto job = std::make_shared<Job>();
-  auto& [input, output, look, options, is_page, report, memory] = *job;
+  auto& [input, output, look, options, is_page, report] = *job;
   options.file("in", input);
   options.file("out", output);
   look.declareView(options);
@@ -92,15 +88,7 @@ run(int argc, char** argv, uvol_tools::SeriesStep* step)
   else
     uvol_tools::checkDrawingPath(output);
 
-  const auto forecastMemory = [&look = job->look, is_page = job->is_page](double points,
-                                                                          double) {
-    return std::max(look.hasColorOfSamples() ? pcl_uvol::derivativeBytes(points) : 0.0,
-                    is_page ? pcl_uvol::footprintsBytes(points)
-                            : look.findBytes(points, 1));
-  };
-  memory.checkFile(input, forecastMemory);
   pcl_uvol::Dataset dataset = uvol_tools::loadPoints(input, report);
-  memory.checkCloud(dataset, forecastMemory); // of text only reading tells how many
   look.addColor(options, dataset, report);
   look.exaggerate(dataset);
   if (step && look.sharesView())

@@ -6,7 +6,6 @@
 #include "shared/color_options.h"
 #include "shared/point_job.h"
 #include "shared/splat_options.h"
-#include "surface/memory_need.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
@@ -42,15 +41,6 @@ generateSplats(const pcl::PCLPointCloud2& cloud,
   return result;
 }
 
-/** What the tool holds beside the points: splats as bytes, and with the other fields.
- */
-double
-forecastMemory(double points, double step)
-{
-  return pcl_uvol::splatsBytes(points) +
-         (sizeof(pcl_uvol::PointSplat) + sizeof(pcl_uvol::IsoEdge) + step) * points;
-}
-
 int
 run(int argc, char** argv)
 {
@@ -64,7 +54,7 @@ run(int argc, char** argv)
       "Cover a surface given as points with discs that have fields of normals, for "
       "uvol_raytrace.\n"
       "Normals are those of the input; missing ones are estimated.");
-  uvol_tools::PointJob job(options, "Making splats");
+  uvol_tools::PointJob job(options);
   options.group("Splats");
   splat_options.declare(options);
   job.declareOutput();
@@ -86,7 +76,7 @@ run(int argc, char** argv)
   if (is_gaussian && std::filesystem::path(job.getOutput()).extension() != ".ply")
     throw uvol_tools::UsageError("-gaussians are written as .ply.");
   const pcl_uvol::SplatParameters parameters = splat_options.parameters(options);
-  const pcl_uvol::Dataset dataset = job.read(forecastMemory);
+  const pcl_uvol::Dataset dataset = job.read();
   pcl_uvol::Dataset result = pcl_uvol::withoutCloud(dataset);
   result.cloud =
       generateSplats(dataset.cloud, parameters, options.threads(), job.report);

@@ -35,6 +35,11 @@ residentMemory();
 PCL_UVOL_EXPORTS std::uint64_t
 peakMemory();
 
+/** \brief The most that the process would have in use by the checks of memory so far:
+ * what it had at a check, and what the work needs. */
+PCL_UVOL_EXPORTS double
+forecastMemory();
+
 /** \brief While it lives, all checks of memory hold the whole process against a bound,
  * small work as well. A limit within another one replaces it for that time. */
 class PCL_UVOL_EXPORTS MemoryLimit {
@@ -62,13 +67,13 @@ public:
 
 /** \brief
  * \param what as a subject: "A grid of 9 x 9 x 9 cells"
- * \param taken bytes of it that the process has in use already
+ * \param bytes besides what the process has in use
  * \throws NotEnoughMemory with both figures if more is needed than is available */
 PCL_UVOL_EXPORTS void
-checkMemory(const std::string& what, double bytes, double taken = 0.0);
+checkMemory(const std::string& what, double bytes);
 
 /** \brief checkMemory() of work on points, asked before it begins. Small work is not
- * checked: to ask what is available takes longer.
+ * only forecast: to ask what is available takes longer.
  * \param task as in "Clustering"
  * \param bytes at the peak, besides the points
  * \throws NotEnoughMemory "Clustering of 1000 points needs ..." */

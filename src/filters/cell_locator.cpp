@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "filters/cell_locator.h"
 
+#include "common/memory.h"
+
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkGenericCell.h>
@@ -15,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace pcl_uvol {
 
@@ -119,6 +122,9 @@ CellLocator::CellLocator(vtkSmartPointer<vtkDataSet> mesh,
   tolerance_ = rounding * longest;
   if (vtkRectilinearGrid::SafeDownCast(mesh_) != nullptr)
     return;
+  const vtkIdType cells = mesh_->GetNumberOfCells();
+  checkMemory("Locating " + std::to_string(cells) + " cells",
+              cell_bytes * static_cast<double>(cells));
   locator_ = vtkSmartPointer<vtkStaticCellLocator>::New();
   locator_->SetDataSet(mesh_);
   locator_->SetNumberOfCellsPerNode(cells_per_bin);
@@ -226,13 +232,6 @@ std::size_t
 CellLocator::size() const
 {
   return static_cast<std::size_t>(mesh_->GetNumberOfCells());
-}
-
-double
-CellLocator::getBytes() const
-{
-  const double mesh = 1024.0 * static_cast<double>(mesh_->GetActualMemorySize());
-  return locator_ ? mesh + cell_bytes * static_cast<double>(size()) : mesh;
 }
 
 } // namespace pcl_uvol

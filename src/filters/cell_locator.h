@@ -49,9 +49,6 @@ public:
   std::size_t
   size() const override;
 
-  double
-  getBytes() const override;
-
 private:
   struct Finder;
 

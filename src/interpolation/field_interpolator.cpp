@@ -329,18 +329,19 @@ FieldInterpolator::FieldInterpolator(const CloudView& input,
                                      const pcl::Indices& indices,
                                      const InterpolationParameters& parameters,
                                      unsigned threads,
-                                     Report& report)
+                                     Report& report,
+                                     const ExpectedQueries& expected)
     : parameters_(parameters)
     , names_(parameters.fields)
 {
   checkParameters(parameters);
   checkIndices(indices, input.count, "FieldInterpolation");
-  checkMemoryOf(
-      "Interpolation",
-      indices.size(),
-      leastInterpolationBytes(static_cast<double>(indices.size()),
-                              std::max(1.0, static_cast<double>(names_.size())),
-                              parameters));
+  checkMemoryOf("Interpolation",
+                indices.size(),
+                interpolationBytes(static_cast<double>(indices.size()),
+                                   std::max(1.0, static_cast<double>(names_.size())),
+                                   parameters,
+                                   expected));
   if (parameters.model == InterpolationModel::Auto)
     parameters_.model =
         chooseModel(input, indices, parameters, threads, report).scores.front().model;

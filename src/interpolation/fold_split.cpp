@@ -43,7 +43,13 @@ FoldSplit::interpolate(const CloudView& cloud,
   }
   Report read, own; // all samples together tell of what is read
   read.progress = own.progress = report.progress;
-  const FieldInterpolator interpolator(cloud, rest, parameters, threads, read);
+  const FieldInterpolator interpolator(
+      cloud,
+      rest,
+      parameters,
+      threads,
+      read,
+      {QueryShape::Space, static_cast<double>(places.size())});
   InterpolatedFields result = interpolator.interpolate(places, threads, own);
   report.warn(own.warnings);
   return result;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "common/memory.h"
 #include "common/scalar_field.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/interpolation/field_interpolation.h>
@@ -77,8 +78,14 @@ appendFields(const InterpolatedFields& fields, pcl::PCLPointCloud2& points)
                    reinterpret_cast<const std::uint8_t*>(fields.support.data())});
 
   const std::size_t old_step = points.point_step;
-  pcl::PCLPointCloud2 joined = points;
   std::size_t step = old_step;
+  for (const NewField& field : added)
+    step += field.bytes();
+  checkMemoryOf("Appending fields",
+                count,
+                static_cast<double>(old_step + step) * static_cast<double>(count));
+  pcl::PCLPointCloud2 joined = points;
+  step = old_step;
   for (const NewField& field : added) {
     pcl::PCLPointField described;
     described.name = field.name;

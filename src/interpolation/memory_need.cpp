@@ -11,6 +11,8 @@ namespace pcl_uvol {
 
 namespace {
 
+using detail::QueryShape;
+
 constexpr double index_bytes = sizeof(std::uint32_t), number_bytes = sizeof(double);
 
 /** Spacings of samples within which fits are made on both sides of a query, buckets
@@ -62,8 +64,7 @@ double
 interpolationBytes(double samples,
                    double fields,
                    const InterpolationParameters& parameters,
-                   double queries,
-                   QueryShape shape)
+                   const detail::ExpectedQueries& expected)
 {
   // Samples in leaf order with their values, which came by input index.
   constexpr double tree_bytes = 36.0, building_bytes = 16.0;
@@ -71,8 +72,9 @@ interpolationBytes(double samples,
   const double building = (building_bytes + number_bytes * fields) * samples;
   const double of_variogram =
       usesVariogram(parameters.model) ? detail::variogramBytes(samples) : 0.0;
-  const double answering = modelBytes(samples, fields, parameters.model, shape) +
-                           answerBytes(queries, fields, parameters);
+  const double answering =
+      modelBytes(samples, fields, parameters.model, expected.shape) +
+      answerBytes(expected.count, fields, parameters);
   // Pairs of a variogram are given back in blocks that the heap keeps.
   return in_order + of_variogram + std::max(building, answering);
 }

@@ -2,8 +2,7 @@
 // Bytes of fields interpolated between samples, at their peak.
 #pragma once
 
-#include <pcl_uvol/common/export.h>
-#include <pcl_uvol/interpolation/interpolation_parameters.h>
+#include <pcl_uvol/interpolation/field_interpolation.h>
 
 namespace pcl_uvol {
 
@@ -23,32 +22,16 @@ sphDensityBytes(double points)
   return (36.0 + 40.0 + 3 * 8.0 + 24.0) * points;
 }
 
-/** \brief How many samples matter to queries: all of them, those about a plane or those
- * about a line. */
-enum class QueryShape { Space, Plane, Line };
-
 /** \brief Of a FieldInterpolator that answers queries, besides the cloud.
- * \param fields number of them
- * \param queries that are answered at a time */
-PCL_UVOL_EXPORTS double
+ * \param fields number of them */
+double
 interpolationBytes(double samples,
                    double fields,
                    const InterpolationParameters& parameters,
-                   double queries,
-                   QueryShape shape);
-
-/** \brief Least of a FieldInterpolator before it answers: fits are made where queries
- * are. */
-inline double
-leastInterpolationBytes(double samples,
-                        double fields,
-                        const InterpolationParameters& parameters)
-{
-  return interpolationBytes(samples, fields, parameters, 0.0, QueryShape::Line);
-}
+                   const detail::ExpectedQueries& expected);
 
 /** \brief Of the queries of a FieldInterpolator and their answers. */
-PCL_UVOL_EXPORTS double
+double
 answerBytes(double queries, double fields, const InterpolationParameters& parameters);
 
 } // namespace pcl_uvol

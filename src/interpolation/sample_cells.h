@@ -34,10 +34,6 @@ public:
   /** \brief Number of cells. */
   virtual std::size_t
   size() const = 0;
-
-  /** \brief Bytes of memory that they take, about. */
-  virtual double
-  getBytes() const = 0;
 };
 
 } // namespace pcl_uvol::detail

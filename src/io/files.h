@@ -2,6 +2,7 @@
 // Files as bytes and lines, with errors that name the file in one sentence.
 #pragma once
 
+#include "common/memory.h"
 #include "common/printable.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/export.h>
@@ -60,15 +61,19 @@ throwUnreadable(const std::string& path, std::size_t line, const FileReason& rea
 [[noreturn]] PCL_UVOL_EXPORTS void
 throwUnwritable(const std::string& path, const FileReason& reason);
 
-/** \brief Call what reads a file; numbers it cannot take and a lack of memory are
- * errors of the file.
- * \throws IOError */
+/** \brief Call what reads a file; numbers it cannot take and a lack of memory that
+ * shows while it reads are errors of the file.
+ * \throws IOError
+ * \throws NotEnoughMemory before points are read */
 template <typename Reader>
 auto
 reading(const std::string& path, const Reader& read)
 {
   try {
     return read();
+  }
+  catch (const NotEnoughMemory&) {
+    throw;
   }
   catch (const InvalidArgument& error) {
     throwUnreadable(path, error.asMessage());

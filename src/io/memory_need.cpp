@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/memory_need.h"
 
+#include "common/memory.h"
 #include "io/formats.h"
 #include "io/record_source.h"
 #include <pcl_uvol/common/exceptions.h>
@@ -13,9 +14,11 @@ namespace {
 /** The memory of a stream, as PointStream says. */
 constexpr double stream_bytes = 2e6;
 
-/** \param packed_bytes of compressed points, 0: they are read as a stream */
+/** As of checkReading(). */
 CloudHeader
-peekRecords(const RecordInfo& info, std::uint64_t packed_bytes)
+peekRecords(const RecordInfo& info,
+            std::uint64_t packed_bytes,
+            std::uint64_t held_bytes)
 {
   const RecordLayout layout(info, recordBytes(info.fields));
   CloudHeader cloud;
@@ -30,7 +33,7 @@ peekRecords(const RecordInfo& info, std::uint64_t packed_bytes)
     cloud.reading_bytes =
         records + std::max(records + static_cast<double>(packed_bytes), kept);
   else {
-    cloud.reading_bytes = kept + stream_bytes;
+    cloud.reading_bytes = kept + stream_bytes + static_cast<double>(held_bytes);
     if (layout.needsOrigin()) // all records are held, until it is known
       cloud.reading_bytes += records;
   }
@@ -48,17 +51,24 @@ peekHeader(const std::string& path, const LoadOptions& options)
       return std::nullopt;
     if (format == io::FileFormat::Pcd)
       if (const auto compressed = io::findCompressed(path))
-        return peekRecords(compressed->info, compressed->packed_bytes);
+        return peekRecords(compressed->info, compressed->packed_bytes, 0);
     const auto source = io::openRecords(path, format, options);
     if (!source)
       return std::nullopt;
-    CloudHeader cloud = peekRecords(source->getInfo(), 0);
-    cloud.reading_bytes += static_cast<double>(source->heldBytes());
-    return cloud;
+    return peekRecords(source->getInfo(), 0, source->heldBytes());
   }
   catch (const Exception&) {
     return std::nullopt;
   }
+}
+
+void
+io::checkReading(const RecordInfo& info,
+                 std::uint64_t packed_bytes,
+                 std::uint64_t held_bytes)
+{
+  const CloudHeader cloud = peekRecords(info, packed_bytes, held_bytes);
+  checkMemoryOf("Reading", cloud.points, cloud.reading_bytes);
 }
 
 } // namespace pcl_uvol

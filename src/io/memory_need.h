@@ -2,6 +2,7 @@
 // Bytes of reading a file, as far as its header tells.
 #pragma once
 
+#include "common/records.h"
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/io/dataset.h>
 
@@ -26,4 +27,17 @@ struct PCL_UVOL_EXPORTS CloudHeader {
 PCL_UVOL_EXPORTS std::optional<CloudHeader>
 peekHeader(const std::string& path, const LoadOptions& options = {});
 
+namespace io {
+
+/** \brief Check the memory that reading all records takes, before it begins.
+ * \param packed_bytes of compressed points, 0: they are read as a stream
+ * \param held_bytes of the source, see RecordSource::heldBytes()
+ * \throws NotEnoughMemory
+ * \throws InvalidArgument for more points than PCL can number */
+void
+checkReading(const RecordInfo& info,
+             std::uint64_t packed_bytes,
+             std::uint64_t held_bytes);
+
+} // namespace io
 } // namespace pcl_uvol

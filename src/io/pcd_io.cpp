@@ -8,6 +8,7 @@
 #include "io/files.h"
 #include "io/formats.h"
 #include "io/label_comments.h"
+#include "io/memory_need.h"
 #include "io/record_source.h"
 
 #include <algorithm>
@@ -262,6 +263,7 @@ readCompressed(const InputFile& file, const std::string& path, const Header& hea
   const std::array<std::uint32_t, 2> sizes = compressedSizes(file, path, header);
   const std::uint64_t count = header.info.count;
   const std::uint64_t step = recordBytes(header.info.fields);
+  checkReading(header.info, sizes[0], 0);
   auto records = makeRecords(header.info.fields, count);
   if (count == 0)
     return records;

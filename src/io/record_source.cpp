@@ -5,6 +5,7 @@
 #include "common/scalar_field.h"
 #include "io/formats.h"
 #include "io/little_endian.h"
+#include "io/memory_need.h"
 
 #include <algorithm>
 
@@ -201,6 +202,7 @@ readPoints(PointReader& reader,
 {
   const RecordInfo& info = reader.getSource().getInfo();
   const auto count = static_cast<std::size_t>(info.count);
+  checkReading(info, 0, reader.getSource().heldBytes());
   if (reader.getLayout().needsOrigin()) {
     // Reading twice would take longer than all records take memory.
     auto records = makeRecords(info.fields, count);
@@ -210,7 +212,6 @@ readPoints(PointReader& reader,
     return makeDataset(std::move(records), info);
   }
   Dataset dataset = reader.getLayout().getHeader();
-  checkSize(count, dataset.cloud.point_step);
   resizePoints(dataset.cloud, count);
   readInParts(reader, count, progress, dataset.cloud);
   if (end)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "isosurface/iso_edges.h"
 
+#include "common/memory.h"
 #include "common/parallel.h"
 #include "common/records.h"
 #include "common/scalar_field.h"
@@ -187,6 +188,10 @@ copyFields(const pcl::PCLPointCloud2& cloud,
            pcl::PCLPointCloud2& points,
            unsigned threads)
 {
+  const double row = sizeof(IsoEdge) + static_cast<double>(points.point_step) +
+                     static_cast<double>(cloud.point_step);
+  checkMemoryOf(
+      "Copying the fields", sources.size(), row * static_cast<double>(sources.size()));
   IsoEdges same;
   same.reserve(sources.size());
   for (const std::uint32_t source : sources)

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/level_set_job.h"
 
+#include "common/memory.h"
 #include "common/records.h"
 #include "common/sample_checks.h"
 #include "common/stretch_axes.h"
 #include "levelset/level_set_input.h"
 #include "neighbors/samples_in_box.h"
+#include "pipeline/memory_need.h"
 #include "pipeline/periodic_surface.h"
 #include "pipeline/weak_support.h"
 #include "pipeline/zero_level.h"
@@ -32,6 +34,12 @@ runLevelSet(const std::shared_ptr<const Dataset>& samples,
             const ProgressCallback& progress)
 {
   checkRequest(request);
+  const std::size_t points = countPoints({samples, use, {}});
+  checkMemoryOf("A level set",
+                points,
+                levelSetJobBytes(static_cast<double>(points),
+                                 static_cast<double>(samples->cloud.point_step),
+                                 request));
   SmoothedSamples result;
   result.report.progress = progress;
   LevelSetParameters& taken = result.taken;

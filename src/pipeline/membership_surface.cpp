@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/membership_surface.h"
 
+#include "common/memory.h"
+#include "isosurface/memory_need.h"
 #include "pipeline/extract_points.h"
 #include "pipeline/finish_isosurface.h"
 #include "pipeline/turned_axes.h"
@@ -28,6 +30,11 @@ extractMembershipSurface(const Dataset& samples,
   parameters.isosurface.interpolation =
       is_smooth ? Interpolation::Fit : Interpolation::Linear;
   parameters.normals = NormalMethod::Edge;
+  const auto points = static_cast<double>(samples.cloud.width);
+  checkMemoryOf("An isosurface",
+                samples.cloud.width,
+                (sizeof(float) + samples.cloud.point_step) * points +
+                    isosurfaceBytes(points, 1));
   const TurnedAxes axes(input);
   Dataset with_field = *input.samples;
   setField(with_field, "membership", members);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "render/surface_cloud.h"
 
+#include "common/memory.h"
 #include "common/parallel.h"
 #include "render/point_colors.h"
+#include "surface/memory_need.h"
 
 #include <algorithm>
 #include <atomic>
@@ -27,13 +29,24 @@ nextRevision()
   return ++revision;
 }
 
+OrientedPoints
+orientWithinMemory(const CloudView& cloud,
+                   const std::vector<std::uint32_t>& use,
+                   unsigned threads,
+                   Report& report)
+{
+  checkMemoryOf(
+      "A picture", use.size(), footprintsBytes(static_cast<double>(use.size())));
+  return orientPoints(cloud, use, threads, report);
+}
+
 } // namespace
 
 SurfaceCloud::SurfaceCloud(const CloudView& cloud,
                            const std::vector<std::uint32_t>& use,
                            unsigned threads,
                            Report& report)
-    : points_(orientPoints(cloud, use, threads, report))
+    : points_(orientWithinMemory(cloud, use, threads, report))
     , revision_(nextRevision())
 {
   place(threads);

@@ -187,7 +187,6 @@ TEST(Memory, OnlyWhatDoesNotFitIsRefused)
 {
   EXPECT_NO_THROW(checkMemory("A grid", 0.0));
   EXPECT_NO_THROW(checkMemory("A grid", 1e6));
-  EXPECT_NO_THROW(checkMemory("What is there already", 5e18, 5e18));
   try {
     checkMemory("A grid of 9 x 9 x 9 cells", 5e18);
     FAIL() << "5 EB are there";

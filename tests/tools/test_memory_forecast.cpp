@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <regex>
 #include <string>
 #include <utility>
@@ -74,13 +75,13 @@ protected:
   }
 
   uvol_test::CommandResult
-  run(const std::string& before = "") const
+  run(const std::string& before = "", const std::string& more = "") const
   {
     const ToolRun& tool = GetParam();
     return runCommand(before + "cd " + (folder_ / "") + " && " + tool.tool + ' ' +
                       (folder_ / tool.input) + ' ' +
                       (folder_ / (draws() ? "out.png" : "out.ply")) + ' ' +
-                      tool.options);
+                      tool.options + more);
   }
 
   static bool
@@ -173,16 +174,21 @@ TEST_P(MemoryForecast, RefusesWhatDoesNotFit)
                        "element vertex 4000000000\nproperty float x\n"
                        "property float y\nproperty float z\nend_header\n");
   std::filesystem::resize_file(folder_ / GetParam().input, 64000001000u);
-  const auto result = run("ulimit -v 7750000; ");
+  const auto result = run("ulimit -v 7750000; ", " -json");
   EXPECT_EQ(1, result.exit_code) << result.err;
-  const std::regex sentence(
-      std::string(GetParam().tool) +
-      ": [^:]*: [A-Z][a-z -]+ of 4000000000 points needs ([0-9.]+) "
-      "([GT]B) of memory, and only "
-      "([0-9.]+) GB are available\\.\n");
+  const auto error = nlohmann::json::parse(result.out).at("error");
+  EXPECT_EQ("not_enough_memory", error.at("code"));
+  const auto valueOf = [&](const char* name) {
+    return error.at("values").at(name).get<std::string>();
+  };
+  EXPECT_EQ("Reading of 4000000000 points", valueOf("what"));
+  EXPECT_TRUE(std::regex_match(valueOf("needed"), std::regex("[0-9.]+ [GT]B")))
+      << result.err;
   std::smatch match;
-  ASSERT_TRUE(std::regex_match(result.err, match, sentence)) << result.err;
-  EXPECT_LT(std::stod(match[3]), 7.95); // 7750000 KiB are 7.94 GB
+  const std::string available = valueOf("available");
+  ASSERT_TRUE(std::regex_match(available, match, std::regex("([0-9.]+) GB")))
+      << result.err;
+  EXPECT_LT(std::stod(match[1]), 7.95); // 7750000 KiB are 7.94 GB
   const std::string tool = GetParam().tool, options = GetParam().options;
   const bool has_bound = tool == "uvol_isosurface" &&
                          options.find("-smooth") == std::string::npos &&

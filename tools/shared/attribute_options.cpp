@@ -3,7 +3,6 @@
 
 #include "common/sample_checks.h"
 #include "common/scalar_field.h"
-#include "shared/memory_guard.h"
 #include "shared/point_files.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
@@ -58,12 +57,6 @@ AttributeOptions::addFields(const Options& options,
     addField(dataset, name, options, report);
     pcl_uvol::refuseNames(dataset, name);
   }
-}
-
-double
-AttributeOptions::getDerivativeBytes(double points) const
-{
-  return derivativeBytes(text_, points);
 }
 
 pcl_uvol::Clustering

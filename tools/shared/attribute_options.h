@@ -40,10 +40,6 @@ public:
             pcl_uvol::Dataset& dataset,
             pcl_uvol::Report& report);
 
-  /** \brief See derivativeBytes(). */
-  double
-  getDerivativeBytes(double points) const;
-
   /** \brief Clusters of these attributes, per point.
    * \throws as DensityClustering, and InvalidArgument for the position of data that
    * have none */

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shared/density_options.h"
 
-#include "interpolation/memory_need.h"
 #include "interpolation/sph_density.h"
 
 #include <limits>
@@ -25,12 +24,6 @@ DensityOptions::declare(Options& options)
               std::numeric_limits<double>::max(),
               "one smoothing length h for -density, whose kernel ends at 2 h")
       .rare();
-}
-
-double
-DensityOptions::findBytes(double points) const
-{
-  return isAskedFor() ? pcl_uvol::sphDensityBytes(points) : 0.0;
 }
 
 void

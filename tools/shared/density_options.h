@@ -33,10 +33,6 @@ public:
            pcl_uvol::Report& report,
            const std::array<double, 3>& periodic = {}) const;
 
-  /** \brief Bytes of adding it, beside the points; 0 if it is not asked for. */
-  double
-  findBytes(double points) const;
-
 private:
   bool is_asked_for_ = false;
   double length_ = 0.0;

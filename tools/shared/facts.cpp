@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shared/facts.h"
 
+#include "common/memory.h"
+
 #include <algorithm>
 #include <cmath>
 #include <locale>
@@ -157,6 +159,18 @@ Fact::withoutJson() const
   Fact shown = *this;
   shown.key_.clear();
   return shown;
+}
+
+Fact
+describeMemory(double bound)
+{
+  const std::string name = bound > 0.0 ? "bound" : "forecast";
+  const double expected = std::round(bound > 0.0 ? bound : pcl_uvol::forecastMemory());
+  const auto peak = static_cast<double>(pcl_uvol::peakMemory());
+  return {"memory",
+          name + ' ' + pcl_uvol::formatBytes(expected) + ", peak " +
+              pcl_uvol::formatBytes(peak),
+          Fact::Members{{name, {expected}}, {"peak", {peak}}}};
 }
 
 } // namespace uvol_tools

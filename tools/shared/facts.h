@@ -81,6 +81,12 @@ append(Facts& facts, const Facts& more)
   facts.insert(facts.end(), more.begin(), more.end());
 }
 
+/** \brief The memory of the process: the forecast before its work, or the bound that it
+ * was given, and the peak so far.
+ * \param bound in bytes, 0: none */
+Fact
+describeMemory(double bound = 0.0);
+
 /** \brief All numbers of a list, as doubles. */
 template <typename T>
 Fact::Numbers

@@ -2,13 +2,11 @@
 #include "shared/point_job.h"
 
 #include <functional>
-#include <utility>
 
 namespace uvol_tools {
 
-PointJob::PointJob(Options& options, std::string task)
+PointJob::PointJob(Options& options)
     : options_(options)
-    , memory_(std::move(task))
 {
   report.progress = std::ref(bar_);
   options.file("in", input_);
@@ -32,26 +30,17 @@ PointJob::declareOutput()
 }
 
 pcl_uvol::Dataset
-PointJob::read(const MemoryGuard::Bytes& bytes)
+PointJob::read()
 {
   const auto load = reading_ ? reading_->makeLoadOptions() : pcl_uvol::LoadOptions();
   const std::string where = reading_ ? reading_->getWhere() : "";
   pcl_uvol::checkSavePath(output_);
-  memory_.checkFile(input_, where.empty() ? bytes : nullptr, load);
   facts = {{"input", input_}, {"output", output_}};
   total_.emplace(report, "total");
   pcl_uvol::Dataset points =
       loadPoints(input_, report, load, where, options_.threads(), &points_);
-  bytes_ = bytes;
-  check(points);
-  return points;
-}
-
-void
-PointJob::check(const pcl_uvol::Dataset& points)
-{
   pcl_uvol::checkSavePath(output_, points.cloud.fields);
-  memory_.checkCloud(points, bytes_);
+  return points;
 }
 
 int
@@ -62,7 +51,7 @@ PointJob::finish(const pcl_uvol::Dataset& result)
   savePoints(output_, result, save, report);
   report.setCount("points", points_); // of stages that count them as well
   total_.reset();
-  facts.push_back(memory_.describe());
+  facts.push_back(describeMemory());
   printReport(options_, report, facts);
   return 0;
 }

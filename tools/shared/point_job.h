@@ -2,7 +2,6 @@
 // What tools from one file of points to another have in common.
 #pragma once
 
-#include "shared/memory_guard.h"
 #include "shared/options.h"
 #include "shared/point_files.h"
 #include "shared/progress_bar.h"
@@ -19,9 +18,8 @@ namespace uvol_tools {
  * order. */
 class PointJob {
 public:
-  /** \brief Declares the files "in" and "out".
-   * \param task that takes memory, as in "Estimating normals" */
-  PointJob(Options& options, std::string task);
+  /** \brief Declares the files "in" and "out". */
+  explicit PointJob(Options& options);
   PointJob(const PointJob&) = delete;
   PointJob&
   operator=(const PointJob&) = delete;
@@ -36,16 +34,11 @@ public:
   void
   declareOutput();
 
-  /** \brief Check the name of the output and the memory that the points take, before
-   * they are read and after.
-   * \param bytes that the tool takes, see MemoryGuard
+  /** \brief Check whether the output can hold the points, before and after they are
+   * read.
    * \throws IOError, NotEnoughMemory, InvalidArgument for a file without points */
   pcl_uvol::Dataset
-  read(const MemoryGuard::Bytes& bytes);
-
-  /** \brief The same once more, if the points have more fields now. */
-  void
-  check(const pcl_uvol::Dataset& points);
+  read();
 
   /** \brief Write the result and print the report.
    * \return the exit code of the tool */
@@ -69,8 +62,6 @@ public:
 private:
   Options& options_;
   std::optional<InputOptions> reading_;
-  MemoryGuard memory_;
-  MemoryGuard::Bytes bytes_;
   ProgressBar bar_;
   std::optional<pcl_uvol::StepTimer> total_;
   std::string input_, output_;

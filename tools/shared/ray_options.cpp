@@ -182,7 +182,7 @@ traceScene(const Options& options,
   report.merge(tracing);
 }
 
-void
+std::size_t
 RayOptions::traceCloud(const Options& options,
                        const ViewOptions& view,
                        const pcl_uvol::Dataset& surface,
@@ -196,6 +196,7 @@ RayOptions::traceCloud(const Options& options,
                                                  splats_.isGiven(options),
                                                  options.threads(),
                                                  report);
+  const std::size_t drawn = splats.cloud.size();
   pcl_uvol::FittedSplats fitted(splats, surface.cloud, options.threads());
   pcl_uvol::RayTracer tracer;
   tracer.setScene(makeScene(view, cloud, std::move(splats), range));
@@ -223,6 +224,7 @@ RayOptions::traceCloud(const Options& options,
       output,
       report);
   report.merge(tracing);
+  return drawn;
 }
 
 } // namespace uvol_tools

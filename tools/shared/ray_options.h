@@ -40,8 +40,9 @@ public:
         const ViewOptions& view,
         pcl_uvol::RayTracingSettings& settings) const;
 
-  /** \brief Draw all frames of one cloud, covered by splats unless it has them. */
-  void
+  /** \brief Draw all frames of one cloud, covered by splats unless it has them.
+   * \return the number of splats */
+  std::size_t
   traceCloud(const Options& options,
              const ViewOptions& view,
              const pcl_uvol::Dataset& surface,

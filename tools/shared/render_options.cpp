@@ -4,7 +4,6 @@
 #include "charts/color_bar.h"
 #include "gl/gl_backend.h"
 #include "render/image_space/cpu_backend.h"
-#include "render/memory_need.h"
 #include "render/surface_cloud.h"
 #include "shared/fallback_backend.h"
 #include "shared/flat_colors.h"
@@ -247,17 +246,6 @@ RenderOptions::drawCloud(const Options& options,
       report);
   report.merge(drawing);
   return renderer.describeBackend();
-}
-
-double
-RenderOptions::findBytes(double points, std::size_t surfaces) const
-{
-  const double scale = getSupersampling();
-  return pcl_uvol::pictureBytes({points,
-                                 scale * getWidth() * scale * getHeight(),
-                                 hasOpacities() ? surfaces : 0,
-                                 settings_.silhouettes && scale > 1.0,
-                                 isFitted()});
 }
 
 void

@@ -7,7 +7,6 @@
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/render/image_space/image_space_renderer.h>
 
-#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -31,13 +30,6 @@ public:
   /** \brief The names of these passes and thresholds, which rays do not have. */
   static const std::vector<std::string>&
   passNames();
-
-  /** \brief True if light goes through surfaces, which are then drawn by themselves. */
-  bool
-  hasOpacities() const
-  {
-    return !opacities_.empty();
-  }
 
   /** \brief Opacities of the isovalues, the lowest first, or one for all; none: all are
    * opaque. */
@@ -64,12 +56,6 @@ public:
             const pcl_uvol::Dataset& surface,
             const std::string& output,
             pcl_uvol::Report& report) const;
-
-  /** \brief Bytes of drawCloud() beside the surface.
-   * \param points of it
-   * \param surfaces that it consists of, by isovalue */
-  double
-  findBytes(double points, std::size_t surfaces) const;
 
   /** \brief Write a surface as a web page that turns in any browser.
    * \throws UsageError for what pages cannot show */

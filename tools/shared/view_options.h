@@ -255,14 +255,6 @@ public:
     return size_.get().dots_per_inch;
   }
 
-  /** \brief The whole object is in the picture: nobody has chosen a place for the
-   * camera or enlarged the picture. */
-  bool
-  isFitted() const
-  {
-    return eye_.empty() && zoom_ <= 1.0;
-  }
-
   /** \brief In each direction, after check(): in image space, and by ray tracing. @{ */
   int
   getSupersampling() const;

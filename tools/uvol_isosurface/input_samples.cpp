@@ -1,35 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "uvol_isosurface/input_samples.h"
 
-#include "interpolation/memory_need.h"
-#include "isosurface/memory_need.h"
-#include "pipeline/memory_need.h"
 #include "shared/point_files.h"
 #include <pcl_uvol/io/dataset.h>
-
-#include <algorithm>
 
 namespace uvol_tools {
 
 using pcl_uvol::Report;
-
-MemoryGuard::Bytes
-forecastMemory(const PipelineOptions& arguments)
-{
-  return [&](double points, double step) {
-    const auto& parameters = arguments.parameters;
-    const std::size_t isovalues = parameters.isosurface.isovalues.size();
-    const double isopoints =
-        static_cast<double>(isovalues) * pcl_uvol::usualIsopoints(points);
-    const double deriving = arguments.picture.hasColorOfSamples()
-                                ? pcl_uvol::derivativeBytes(points)
-                                : derivativeBytes(parameters.isosurface.field, points);
-    return std::max({deriving,
-                     arguments.density.findBytes(points),
-                     pcl_uvol::pipelineBytes(points, step, parameters) +
-                         arguments.picture.findBytes(isopoints, isovalues)});
-  };
-}
 
 void
 checkOutput(const PipelineOptions& arguments, const pcl_uvol::Dataset& samples)
@@ -39,10 +16,7 @@ checkOutput(const PipelineOptions& arguments, const pcl_uvol::Dataset& samples)
 }
 
 std::shared_ptr<pcl_uvol::Dataset>
-loadSamples(const Options& options,
-            PipelineOptions& arguments,
-            MemoryGuard& memory,
-            Report& report)
+loadSamples(const Options& options, PipelineOptions& arguments, Report& report)
 {
   std::size_t points = 0;
   auto samples =
@@ -62,7 +36,6 @@ loadSamples(const Options& options,
   addField(*samples, arguments.parameters.isosurface.field, options, report, sides);
   arguments.picture.addColorOfSamples(options, *samples, report, sides);
   checkOutput(arguments, *samples);
-  memory.checkCloud(*samples, forecastMemory(arguments));
   return samples;
 }
 

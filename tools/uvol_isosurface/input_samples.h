@@ -2,7 +2,6 @@
 // The samples of uvol_isosurface, with every field that its options ask for.
 #pragma once
 
-#include "shared/memory_guard.h"
 #include "uvol_isosurface/pipeline_options.h"
 #include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/stage.h>
@@ -16,18 +15,11 @@ namespace uvol_tools {
  * \param arguments get the name of the field that is taken, and the box of samples that
  * repeat
  *
- * \param memory looks at the need as soon as the number of samples is known
- *
  * \throws IOError, InvalidArgument */
 std::shared_ptr<pcl_uvol::Dataset>
 loadSamples(const Options& options,
             PipelineOptions& arguments,
-            MemoryGuard& memory,
             pcl_uvol::Report& report);
-
-/** \brief Bytes of a run in memory beside the samples. */
-MemoryGuard::Bytes
-forecastMemory(const PipelineOptions& arguments);
 
 /** \brief Check whether the output can hold the fields, before work whose result would
  * be lost.

@@ -3,7 +3,6 @@
 
 #include "expressions/formula.h"
 #include "shared/level_set.h"
-#include "shared/memory_guard.h"
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/neighbors/voronoi_diagram.h>
 

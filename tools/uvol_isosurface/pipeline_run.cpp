@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "uvol_isosurface/pipeline_run.h"
 
+#include "common/memory.h"
 #include "expressions/derived_source.h"
 #include "io/point_stream.h"
 #include "pipeline/extract_out_of_core.h"
@@ -63,14 +64,10 @@ measureResult(const Options& options,
 IsosurfaceResult
 runInMemory(const Options& options,
             PipelineOptions& arguments,
-            MemoryGuard& memory,
             Report& report,
             Facts& figures)
-{
-  memory.checkFile(arguments.input,
-                   arguments.getWhere().empty() ? forecastMemory(arguments) : nullptr,
-                   arguments.makeLoadOptions());
-  const auto samples = loadSamples(options, arguments, memory, report);
+try {
+  const auto samples = loadSamples(options, arguments, report);
   const IsosurfacePipelineParameters& parameters = arguments.parameters;
   pcl_uvol::IsosurfacePipeline pipeline;
   pipeline.setInput(samples);
@@ -83,6 +80,13 @@ runInMemory(const Options& options,
   for (const Fact& fact : measureResult(options, arguments, samples, result))
     figures.push_back(fact);
   return result;
+}
+catch (const pcl_uvol::NotEnoughMemory& error) {
+  if (arguments.needsAllSamples())
+    throw;
+  pcl_uvol::Message message = error.asMessage();
+  message.about = "Without -max-memory";
+  throw pcl_uvol::NotEnoughMemory(message);
 }
 
 IsosurfaceResult

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "shared/facts.h"
-#include "shared/memory_guard.h"
 #include "uvol_isosurface/pipeline_options.h"
 #include <pcl_uvol/pipeline/isosurface_result.h>
 
@@ -16,11 +15,11 @@ namespace uvol_tools {
  *
  * \param[out] figures of the box that repeats, and of the surface
  *
- * \throws IOError, InvalidArgument, OutOfMemory */
+ * \throws IOError, InvalidArgument, NotEnoughMemory; this names -max-memory if it
+ * helps */
 pcl_uvol::IsosurfaceResult
 runInMemory(const Options& options,
             PipelineOptions& arguments,
-            MemoryGuard& memory,
             pcl_uvol::Report& report,
             Facts& figures);
 

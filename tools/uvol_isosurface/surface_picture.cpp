@@ -2,7 +2,6 @@
 #include "uvol_isosurface/surface_picture.h"
 
 #include "charts/picture_file.h"
-#include "surface/memory_need.h"
 
 #include <string>
 
@@ -94,23 +93,12 @@ SurfacePicture::draw(const Options& options,
   drawing.progress = report.progress;
   std::string backend = "ray tracing";
   if (is_ray_traced_)
-    rays_.traceCloud(options, look_, surface, path_, drawing);
+    report.count("splats", rays_.traceCloud(options, look_, surface, path_, drawing));
   else
     backend = look_.drawCloud(options, surface, path_, drawing);
   for (const auto& [pass, milliseconds] : drawing.milliseconds)
     report.time("picture_" + pass, milliseconds);
-  if (is_ray_traced_)
-    report.count("splats", drawing.getCount("splats"));
   return backend;
-}
-
-double
-SurfacePicture::findBytes(double points, std::size_t surfaces) const
-{
-  if (path_.empty())
-    return 0.0;
-  return is_ray_traced_ ? pcl_uvol::splatsBytes(points)
-                        : look_.findBytes(points, surfaces);
 }
 
 } // namespace uvol_tools

@@ -57,11 +57,6 @@ public:
     return look_;
   }
 
-  /** \brief Bytes of a picture of that many points.
-   * \param surfaces number of isovalues */
-  double
-  findBytes(double points, std::size_t surfaces) const;
-
 private:
   std::string path_;
   bool is_ray_traced_ = false;

@@ -6,7 +6,6 @@
 #include "common/sample_checks.h"
 #include "common/scalar_field.h"
 #include "common/scalar_names.h"
-#include "shared/memory_guard.h"
 #include "shared/point_files.h"
 #include <pcl_uvol/common/cloud_view.h>
 
@@ -204,12 +203,6 @@ InterpolationOptions::resolve(const Options& options,
   parameters.scale = stretch.scale;
   parameters.rotation = stretch.rotation;
   return parameters;
-}
-
-double
-InterpolationOptions::getDerivativeBytes(double points) const
-{
-  return derivativeBytes(fields_, points);
 }
 
 Folds

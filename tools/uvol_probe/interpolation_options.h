@@ -36,10 +36,6 @@ public:
           pcl_uvol::Report& report,
           Facts& facts) const;
 
-  /** \brief See derivativeBytes(). */
-  double
-  getDerivativeBytes(double points) const;
-
   /** \brief After finish(), without fields and scale. */
   const pcl_uvol::InterpolationParameters&
   getParameters() const

@@ -98,6 +98,16 @@ struct FittedVariogram;
 /** \brief Queries of a lattice that are answered at a time. */
 constexpr std::size_t lattice_block = std::size_t{1} << 18;
 
+/** \brief How many samples matter to queries: all of them, those about a plane or those
+ * about a line. */
+enum class QueryShape { Space, Plane, Line };
+
+/** \brief Queries that will be answered at a time, as far as they are known before. */
+struct ExpectedQueries {
+  QueryShape shape = QueryShape::Line;
+  double count = 0.0;
+};
+
 /** \brief Models of the fields of a cloud, ready for queries: trees and fits are kept.
  */
 class PCL_UVOL_EXPORTS FieldInterpolator {
@@ -106,12 +116,14 @@ public:
    * that have a finite value of it
    * \param report gets the counts "non_finite", "duplicates" and
    * "conflicting_duplicates" of fields with different samples one after another
+   * \param expected queries that memory is checked for, with the models
    * \throws InvalidArgument as FieldInterpolation::interpolate */
   FieldInterpolator(const CloudView& cloud,
                     const pcl::Indices& indices,
                     const InterpolationParameters& parameters,
                     unsigned threads,
-                    Report& report);
+                    Report& report,
+                    const ExpectedQueries& expected = {});
   FieldInterpolator(const FieldInterpolator&) = delete;
   FieldInterpolator&
   operator=(const FieldInterpolator&) = delete;

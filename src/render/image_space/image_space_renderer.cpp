@@ -131,9 +131,10 @@ ImageSpaceRendererBase::prepare(const CloudView& cloud,
     return *surface_;
   detail::checkIndices(*indices, cloud.count, "ImageSpaceRenderer");
   const double scale = std::max(supersampling_, 1);
+  const bool is_there = prepared_ && opacities_.empty();
   checkMemoryOf("A picture",
                 indices->size(),
-                pictureBytes({static_cast<double>(indices->size()),
+                pictureBytes({is_there ? 0.0 : static_cast<double>(indices->size()),
                               scale * width_ * scale * height_,
                               opacities_.size(),
                               settings_.silhouettes && supersampling_ > 1}));
