@@ -2,8 +2,6 @@
 #include "mesh/measure_warnings.h"
 
 #include "common/number_range.h"
-#include "mesh/measured_mesh.h"
-#include <pcl_uvol/common/point_types.h>
 
 #include <Eigen/Eigenvalues>
 
@@ -101,21 +99,11 @@ isFlat(const SurfaceIntegrals& integrals, const PieceMeasures& piece)
 }
 
 void
-warnOfSupport(const CloudView& vertices, Report& report)
+warnOfWeak(const WeakVertices& vertices, Report& report)
 {
-  const auto support = findScalar(vertices, "support"),
-             cap = findScalar(vertices, "cap");
-  std::size_t weak = 0, all = 0;
-  for (std::size_t i = 0; support && i < vertices.count; ++i) {
-    if (cap && cap->read(vertices.point(i)) > 0.0)
-      continue;
-    const double kind = support->read(vertices.point(i));
-    weak += kind == static_cast<double>(IsoSupport::Bridged) ||
-            kind == static_cast<double>(IsoSupport::Rim);
-    ++all;
-  }
-  if (2 * weak > all)
-    report.warn("unconstrained_measures", {{"percent", 100 * weak / all}});
+  if (vertices.areMost())
+    report.warn("unconstrained_measures",
+                {{"percent", 100 * vertices.weak / vertices.all}});
 }
 
 void

@@ -28,10 +28,28 @@ struct UncertainPieces {
   bool are_left_out = false;
 };
 
-/** \brief Warn where most vertices lie between lines of samples or beside gaps, as
- * their field `support` tells, if they have it. Those on caps do not count. */
+/** \brief The vertices between lines of samples or next to gaps. Those on caps do not
+ * count. */
+struct WeakVertices {
+  std::size_t weak = 0, all = 0;
+
+  void
+  add(bool is_weak)
+  {
+    weak += is_weak;
+    ++all;
+  }
+
+  bool
+  areMost() const
+  {
+    return 2 * weak > all;
+  }
+};
+
+/** \brief Warn if most vertices are weak. */
 void
-warnOfSupport(const CloudView& vertices, Report& report);
+warnOfWeak(const WeakVertices& vertices, Report& report);
 
 /** \brief Warn of uncertain pieces. */
 void

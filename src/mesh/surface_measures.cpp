@@ -8,6 +8,7 @@
 #include "mesh/self_intersections.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/common/point_types.h>
 #include <pcl_uvol/mesh/surface_measures.h>
 
 #include <Eigen/Eigenvalues>
@@ -37,9 +38,8 @@ using detail::findScalar;
 using detail::MeasuredSurface;
 using detail::SurfaceIntegrals;
 
-/** Share of the area: less without an estimated error changes figures by less than they
- * say.
- */
+/** Share of the area: less without an estimated error, or with one as large as edges,
+ * changes figures by less than they say. */
 constexpr double much_without_error = 0.05;
 
 /** What the vertices' estimated distances to the surface make of area and volume. */
@@ -49,6 +49,9 @@ public:
       : vertices_(vertices)
       , error_(findScalar(vertices, "error"))
       , curvature_(findScalar(vertices, "mean_curvature"))
+      , support_(findScalar(vertices, "support"))
+      , length_(findScalar(vertices, "edge_length"))
+      , cap_(findScalar(vertices, "cap"))
   {
   }
 
@@ -73,9 +76,34 @@ public:
     return true;
   }
 
+  bool
+  isOnCap(std::uint32_t vertex) const
+  {
+    return cap_ && cap_->read(vertices_.point(vertex)) != 0.0;
+  }
+
+  /** Whether a vertex is between lines of samples or next to a gap. */
+  bool
+  isWeak(std::uint32_t vertex) const
+  {
+    const double kind = support_ ? support_->read(vertices_.point(vertex)) : 0.0;
+    return kind == static_cast<double>(IsoSupport::Bridged) ||
+           kind == static_cast<double>(IsoSupport::Rim);
+  }
+
+  /** False for a vertex that may be anywhere between its two samples. */
+  bool
+  isLocated(std::uint32_t vertex) const
+  {
+    if (!error_ || !length_)
+      return true;
+    const std::uint8_t* const point = vertices_.point(vertex);
+    return error_->read(point) <= 0.5 * length_->read(point);
+  }
+
 private:
   const CloudView& vertices_;
-  std::optional<ScalarField> error_, curvature_;
+  std::optional<ScalarField> error_, curvature_, support_, length_, cap_;
 };
 
 /** Centroid and axes from the integrals over the enclosed space, or the area. */
@@ -127,17 +155,7 @@ public:
       , vertices_(vertices)
       , origin_(origin[0], origin[1], origin[2])
   {
-    const VertexErrors errors(vertices);
-    forVertices([&](std::size_t piece, std::size_t vertex) {
-      const double share = surface_.shares[vertex];
-      area_ += share;
-      const double rim =
-          surface_.rim_lengths.empty() ? 0.0 : surface_.rim_lengths[vertex];
-      if (!errors.add(
-              surface_.sources[vertex], share, rim, surface_.integrals[piece]) &&
-          !surface_.corners[vertex].is_on_cap)
-        without_error_ += share;
-    });
+    addErrors();
     for (std::size_t i = 0; i < surface_.integrals.size(); ++i)
       figures.pieces.push_back(describePiece(i));
     describeFields();
@@ -227,7 +245,7 @@ public:
     const double part = area_ > 0.0 ? without_error_ / area_ : 0.0;
     if (part > much_without_error)
       report.warn("area_without_error", {{"percent", std::lround(100.0 * part)}});
-    detail::warnOfSupport(vertices_, report);
+    detail::warnOfWeak(weak_, report);
     detail::warnOfMeasures(figures, report);
     detail::warnOfUncertain(uncertain_, report);
   }
@@ -235,6 +253,40 @@ public:
   SurfaceFigures figures;
 
 private:
+  /** Add what the errors of vertices make of area and volume. The whole piece counts as
+   * its error if most vertices are weak and samples do not locate all of them: a mesh
+   * of a shell that is two samples thick closes the hollow, too. */
+  void
+  addErrors()
+  {
+    const VertexErrors errors(vertices_);
+    const std::size_t pieces = surface_.integrals.size();
+    std::vector<detail::WeakVertices> weak(pieces);
+    std::vector<double> areas(pieces), unlocated(pieces); // beside caps
+    forVertices([&](std::size_t piece, std::size_t vertex) {
+      const std::uint32_t source = surface_.sources[vertex];
+      const double share = surface_.shares[vertex];
+      area_ += share;
+      const double rim =
+          surface_.rim_lengths.empty() ? 0.0 : surface_.rim_lengths[vertex];
+      const bool has_error = errors.add(source, share, rim, surface_.integrals[piece]);
+      if (errors.isOnCap(source))
+        return;
+      without_error_ += has_error ? 0.0 : share;
+      areas[piece] += share;
+      unlocated[piece] += errors.isLocated(source) ? 0.0 : share;
+      weak[piece].add(errors.isWeak(source));
+      weak_.add(errors.isWeak(source));
+    });
+    for (std::size_t i = 0; i < pieces; ++i) {
+      if (!weak[i].areMost() || unlocated[i] <= much_without_error * areas[i])
+        continue;
+      SurfaceIntegrals& all = surface_.integrals[i];
+      all.area_error += all.area;
+      all.volume_error += std::abs(all.volume);
+    }
+  }
+
   static bool
   isOf(const PieceMeasures& all, const PieceMeasures& piece)
   {
@@ -467,6 +519,7 @@ private:
   Eigen::Vector3d origin_;
   PieceMeasures whole_box_; // what its samples are
   detail::UncertainPieces uncertain_;
+  detail::WeakVertices weak_;
   std::vector<bool> is_left_out_;           // by piece, before they have an order
   double area_ = 0.0, without_error_ = 0.0; // of it, where no vertex tells its error
   std::vector<Eigen::Vector3d> centers_;    // by piece, that integrals are relative to

@@ -5,6 +5,7 @@
 #include "mesh_fields.h"
 #include "support/messages.h"
 #include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/common/point_types.h>
 #include <pcl_uvol/mesh/surface_measures.h>
 
 #include <gtest/gtest.h>
@@ -201,6 +202,44 @@ TEST(SurfaceMeasures, ErrorsOfVerticesAreErrorsOfTheVolume)
   EXPECT_EQ("area_without_error", measures.getReport().warnings[0].code);
   EXPECT_NEAR(
       50.0, uvol_test::numberOf(measures.getReport().warnings[0], "percent"), 10.0);
+}
+
+TEST(SurfaceMeasures, UnconstrainedPiecesAreUncertainByTheirSize)
+{
+  const MeasuredShape sphere = makeEllipsoid({2.0, 2.0, 2.0}, 5);
+  auto vertices = std::make_shared<Dataset>(sphere.toDataset());
+  const std::size_t count = sphere.places.size();
+  setField(*vertices, "edge_length", std::vector<float>(count, 0.1f));
+  // Next to gaps below a limit, and one vertex in seven with an error. Vertices on the
+  // cap do not count.
+  const auto measureWith = [&](double limit, float error) {
+    std::vector<float> errors;
+    std::vector<std::int32_t> support, cap;
+    for (const Eigen::Vector3d& place : sphere.places) {
+      support.push_back(static_cast<std::int32_t>(
+          place[0] < limit ? IsoSupport::Rim : IsoSupport::Measured));
+      errors.push_back(place[0] < -1.5 ? error : 0.0f);
+      cap.push_back(place[0] > 1.5 ? 1 : 0);
+    }
+    setField(*vertices, "error", errors);
+    setField(*vertices, "support", support);
+    setField(*vertices, "cap", cap);
+    SurfaceMeasures measures;
+    measures.setInputSurface(vertices, sphere.triangles);
+    const PieceMeasures piece = measures.compute().isovalues[0];
+    const auto& warnings = measures.getReport().warnings;
+    EXPECT_EQ(limit > -0.25 ? 1 : 0,
+              std::count_if(warnings.begin(), warnings.end(), [](const Message& one) {
+                return one.code == "unconstrained_measures";
+              }));
+    return piece;
+  };
+  const PieceMeasures few = measureWith(-0.5, 0.06f), most = measureWith(0.0, 0.06f),
+                      located = measureWith(0.0, 0.04f);
+  EXPECT_LT(few.volume.error, 0.1 * few.volume.value);
+  EXPECT_LT(located.volume.error, few.volume.error);
+  EXPECT_DOUBLE_EQ(few.volume.error + few.volume.value, most.volume.error);
+  EXPECT_DOUBLE_EQ(few.area.error + few.area.value, most.area.error);
 }
 
 TEST(SurfaceMeasures, WhatRimsAreOffByIsAnErrorOfTheArea)
