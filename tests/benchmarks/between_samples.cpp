@@ -3,6 +3,7 @@
 // where VTK's cells give the true value, and at held-out samples of other data.
 #include "common/scalar_field.h"
 #include "interpolation/fold_split.h"
+#include "io/cell_loader.h"
 #include "support/environment.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/interpolation/cross_validation.h>
@@ -188,9 +189,9 @@ valueAt(vtkDataSet* grid, const std::string& field, vtkIdType point)
 
 /** Random parametric coordinates of random cells. */
 Truth
-sampleCells(const Case& data, std::size_t count)
+sampleCells(const std::string& path, const std::string& field, std::size_t count)
 {
-  const auto grid = readGrid(uvol_test::dataFolder() + "/" + data.file);
+  const auto grid = readGrid(path);
   uvol_test::Random random(1);
   Truth truth;
   vtkNew<vtkGenericCell> cell;
@@ -208,7 +209,7 @@ sampleCells(const Case& data, std::size_t count)
     double value = 0.0;
     for (std::size_t i = 0; i < weights.size(); ++i)
       value += weights[i] *
-               valueAt(grid, data.field, cell->GetPointId(static_cast<vtkIdType>(i)));
+               valueAt(grid, field, cell->GetPointId(static_cast<vtkIdType>(i)));
     truth.places.push_back(place);
     truth.values.push_back(value);
   }
@@ -245,7 +246,10 @@ testCells(const Case& data,
           const std::vector<std::string>& wanted)
 {
   constexpr std::size_t count = 3000;
-  Truth truth = sampleCells(data, count);
+  const std::string path = uvol_test::dataFolder() + "/" + data.file;
+  Truth truth = sampleCells(path, data.field, count);
+  pcl_uvol::Report cell_report;
+  const auto cells = pcl_uvol::findCells(path, {}, samples, cell_report);
   for (auto& place : truth.places)
     for (std::size_t axis = 0; axis < 3; ++axis)
       place[axis] -= samples.origin[axis];
@@ -254,8 +258,8 @@ testCells(const Case& data,
   std::iota(all.begin(), all.end(), 0);
   const auto answers = askModels(data, wanted, [&](const auto& parameters) {
     pcl_uvol::Report report;
-    const pcl_uvol::detail::FieldInterpolator interpolator(
-        cloud, all, parameters, 0, report);
+    pcl_uvol::detail::FieldInterpolator interpolator(cloud, all, parameters, 0, report);
+    interpolator.setCells(cells);
     const auto result = interpolator.interpolate(truth.places, 0, report);
     return Answers{result.values, result.errors};
   });
