@@ -419,9 +419,8 @@ Options::assignOption(const std::vector<std::string>& arguments, std::size_t& i)
 bool
 Options::parse(int argc, const char* const* argv)
 {
+  noteJson(argc, argv);
   const std::vector<std::string> arguments = splitValues(argc, argv);
-  is_json_asked_for =
-      std::find(arguments.begin(), arguments.end(), "-json") != arguments.end();
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     const std::string& argument = arguments[i];
     if (argument == "-h" || argument == "-help") {
@@ -509,6 +508,13 @@ Options::assignFiles(const std::vector<std::string>& files) const
     }
     else
       *positionals_[i].target = *next++;
+}
+
+void
+noteJson(int argc, const char* const* argv)
+{
+  const std::vector<std::string> words = splitValues(argc, argv);
+  is_json_asked_for = std::find(words.begin(), words.end(), "-json") != words.end();
 }
 
 bool

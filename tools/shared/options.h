@@ -437,7 +437,11 @@ runTool(const char* tool, const std::function<int()>& body);
 void
 printError(const char* tool, const Outcome& outcome);
 
-/** \brief Whether the command line that is parsed asks for JSON. */
+/** \brief Keep whether a command line asks for JSON, before anything of it can fail. */
+void
+noteJson(int argc, const char* const* argv);
+
+/** \brief Whether the command line asks for JSON. */
 bool
 isJsonAskedFor();
 

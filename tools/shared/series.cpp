@@ -114,14 +114,15 @@ parseSeries(int argc, char** argv)
 std::vector<std::size_t>
 parseSnapshots(const std::string& text)
 {
+  const UsageError wrong("-snapshots takes first:last or first:last:step, not " + text +
+                         ".");
   std::vector<std::uint64_t> parts;
   std::string_view rest = text;
   for (bool more = true; more;) {
     const std::size_t colon = rest.find(':');
     std::uint64_t number = 0;
     if (!pcl_uvol::parseCount(rest.substr(0, colon), number))
-      throw UsageError("-snapshots takes first:last or first:last:step, not " + text +
-                       ".");
+      throw wrong;
     parts.push_back(number);
     more = colon != std::string_view::npos;
     rest.remove_prefix(more ? colon + 1 : rest.size());
@@ -130,8 +131,7 @@ parseSnapshots(const std::string& text)
   constexpr std::uint64_t most = 1000000;
   if (parts.size() < 2 || parts.size() > 3 || step == 0 || parts[1] < parts[0] ||
       (parts[1] - parts[0]) / step >= most)
-    throw UsageError("-snapshots takes first:last or first:last:step, not " + text +
-                     ".");
+    throw wrong;
   std::vector<std::size_t> numbers;
   for (std::uint64_t number = parts[0]; number <= parts[1]; number += step)
     numbers.push_back(number);
@@ -366,6 +366,7 @@ runSeries(const char* tool, int argc, char** argv, const RunFile& run)
 {
   int exit_code = 0;
   const auto body = [&] {
+    noteJson(argc, argv);
     const Series series = parseSeries(argc, argv);
     if (!series.input && (series.snapshots || series.keeps_going))
       throw UsageError(
