@@ -88,7 +88,7 @@ class ArrayConvention : public Convention {};
 TEST_P(ArrayConvention, MissingArray)
 {
   filter_->SetInputArrayToProcess(0, 0, 0, at_points, "rho");
-  expectError("no array 'rho' of points");
+  expectError("'rho'");
   EXPECT_NE(listener_.errors[0].find("density (float32), vel (float64 x 3)"),
             std::string::npos)
       << listener_.errors[0];
@@ -102,7 +102,7 @@ TEST_P(ArrayConvention, MissingArray)
 TEST_P(ArrayConvention, NoActiveScalars)
 {
   samples_->GetPointData()->SetActiveScalars(nullptr);
-  expectError("no active Scalars of points");
+  expectError("Scalars");
 }
 
 TEST_P(ArrayConvention, ArrayOfCells)
@@ -112,13 +112,13 @@ TEST_P(ArrayConvention, ArrayOfCells)
   samples_->GetCellData()->AddArray(of_cells);
   filter_->SetInputArrayToProcess(
       0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "of_cells");
-  expectError("array 'of_cells' is not point data");
+  expectError("'of_cells'");
 }
 
 TEST_P(ArrayConvention, ArrayOfStrings)
 {
   filter_->SetInputArrayToProcess(0, 0, 0, at_points, "name");
-  expectError("array 'name' is a vtkStringArray");
+  expectError("vtkStringArray");
 }
 
 TEST_P(ArrayConvention, ArrayOfAnotherLength)
@@ -128,7 +128,7 @@ TEST_P(ArrayConvention, ArrayOfAnotherLength)
   shorter->SetNumberOfTuples(7);
   samples_->GetPointData()->AddArray(shorter);
   filter_->SetInputArrayToProcess(0, 0, 0, at_points, "shorter");
-  expectError("of 7 tuples, but there are 4000 points");
+  expectError(" 7 tuples");
   EXPECT_EQ(listener_.warnings.size(), 1u); // it is left out
 }
 
@@ -139,7 +139,7 @@ TEST_P(ArrayConvention, NoSuchComponent)
     isosurface->SetArrayComponent(3);
   else
     vtkUvolLevelSet::SafeDownCast(filter_)->SetArrayComponent(3);
-  expectError("has 3 components, so there is no component 3");
+  expectError(" 3 components");
 }
 
 TEST_P(ArrayConvention, BadParameter)
@@ -363,8 +363,7 @@ TEST(VtkIsosurface, WarningsNameProperties)
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
   EXPECT_EQ(listener.errors.size(), 0u);
   ASSERT_EQ(listener.warnings.size(), 1u);
-  EXPECT_NE(listener.warnings[0].find("MaximumError removed the last "),
-            std::string::npos)
+  EXPECT_NE(listener.warnings[0].find("MaximumError"), std::string::npos)
       << listener.warnings[0];
 }
 

@@ -263,8 +263,10 @@ TEST(PointData, BadInput)
   EXPECT_THROW(fromPointCloud(cloud), InvalidArgument);
   cloud = makeDataset({}, 4, 1).cloud;
   cloud.fields[1].name = "why";
-  const auto message = messageOf<InvalidArgument>([&] { fromPointCloud(cloud); });
-  EXPECT_NE(message.find("no scalar field y"), std::string::npos) << message;
+  const Message error =
+      uvol_test::thrownBy<InvalidArgument>([&] { fromPointCloud(cloud); });
+  EXPECT_EQ("no_coordinate_field", error.code);
+  EXPECT_EQ("y", uvol_test::wordOf(error, "axis"));
   cloud.fields[1].name = "y";
   cloud.fields[2].offset = 100;
   EXPECT_THROW(fromPointCloud(cloud), InvalidArgument);

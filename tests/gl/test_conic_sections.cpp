@@ -2,6 +2,7 @@
 // Layers of cones against brute force.
 #include "gl/conic_sections.h"
 #include "support/environment.h"
+#include "support/messages.h"
 
 #include <algorithm>
 #include <cmath>
@@ -335,13 +336,12 @@ TEST(ConicSections, LayersThatAreTooLargeForTheDriver)
     Report report;
     EXPECT_THAT(sections.find(makeShape({16, 16, 20}), {{0, 0, 0}}, 0, report),
                 testing::Each(0u));
-    try {
+    const pcl_uvol::Message error = uvol_test::thrownBy<GlError>([&] {
       sections.find(makeShape({8, 17, 2}), {{0, 0, 0}}, 0, report);
-      ADD_FAILURE() << "no GlError";
-    }
-    catch (const GlError& error) {
-      EXPECT_THAT(error.message(), testing::HasSubstr("8 x 17 cells are too large"));
-    }
+    });
+    EXPECT_EQ("gl_layers_too_large", error.code);
+    EXPECT_EQ(8.0, uvol_test::numberOf(error, "width"));
+    EXPECT_EQ(17.0, uvol_test::numberOf(error, "height"));
   });
 }
 

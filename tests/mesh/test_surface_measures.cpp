@@ -492,32 +492,25 @@ TEST(SurfaceMeasures, RefusesWhatIsNoSurface)
   SurfaceMeasures measures;
   EXPECT_THROW(measures.compute(), InvalidArgument);
   const MeasuredShape box = makeBox({1.0, 1.0, 1.0});
-  const auto refuses = [&](const MeasuredShape& shape, const std::string& word) {
+  const auto refuses = [&](const MeasuredShape& shape, const pcl_uvol::Message& told) {
     measures.setInputSurface(std::make_shared<Dataset>(shape.toDataset()),
                              shape.triangles);
-    try {
-      measures.compute();
-      ADD_FAILURE() << word;
-    }
-    catch (const InvalidArgument& error) {
-      EXPECT_NE(std::string::npos, std::string(error.what()).find(word))
-          << error.what();
-    }
+    EXPECT_EQ(told, uvol_test::thrownBy<InvalidArgument>([&] { measures.compute(); }));
   };
   MeasuredShape shape = box;
   shape.triangles.clear();
-  refuses(shape, "neither triangles nor normals");
+  refuses(shape, {"surface_without_normals", {}});
   shape.normals.assign(shape.places.size(), Eigen::Vector3d::Zero());
-  refuses(shape, "No point");
+  refuses(shape, {"surface_points_without_normal", {}});
   measures.setInputSamples(std::make_shared<Dataset>(shape.toDataset()));
-  refuses(shape, "with triangles");
+  refuses(shape, {"inside_without_triangles", {}});
   measures.setInputSamples(nullptr);
   shape = box;
   shape.triangles[3][1] = 8;
-  refuses(shape, "vertex 8");
+  refuses(shape, {"triangle_beyond_vertices", {{"vertex", 8}, {"vertices", 8}}});
   shape = box;
   shape.places[2][1] = std::numeric_limits<double>::quiet_NaN();
-  refuses(shape, "not finite");
+  refuses(shape, {"vertex_not_finite", {{"vertex", 2}}});
 }
 
 TEST(SurfaceMeasures, TrianglesThatAreLinesGo)

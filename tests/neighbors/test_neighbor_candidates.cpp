@@ -3,6 +3,7 @@
 #include "neighbors/neighbor_candidates.h"
 #include "neighbors/neighborhood_finder.h"
 #include "support/clouds.h"
+#include "support/messages.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <gtest/gtest.h>
@@ -196,13 +197,9 @@ TEST(VoronoiCandidates, RefuseDenseCellsAndReportTheNumber)
   (*cloud)[1].getVector3fMap().setConstant(-10.0f);
   const auto samples = buildSamples(*cloud);
   Report report;
-  try {
-    const VoronoiCandidates candidates(*samples, {}, 0, report);
-    FAIL() << "no refusal";
-  }
-  catch (const pcl_uvol::InvalidArgument& error) {
-    EXPECT_NE(std::string::npos, std::string(error.what()).find("too many candidate"));
-  }
+  EXPECT_EQ("too_many_candidates", uvol_test::codeOf<pcl_uvol::InvalidArgument>([&] {
+              const VoronoiCandidates candidates(*samples, {}, 0, report);
+            }));
 }
 
 } // namespace test_neighbor_candidates

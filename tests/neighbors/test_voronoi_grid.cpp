@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Discrete Voronoi diagrams against brute force.
 #include "common/random.h"
+#include "support/messages.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/neighbors/voronoi_diagram.h>
 
@@ -295,22 +296,23 @@ TEST(VoronoiGrid, RefusesWhatDoesNotFit)
   Report report;
   FeatureTransform way;
   GridShape shape;
-  const auto refuses = [&](const std::string& part) {
-    try {
+  const auto refusal = [&] {
+    return uvol_test::thrownBy<InvalidArgument>([&] {
       const VoronoiGrid grid(shape, points.xyz.data(), 3, points.use, way, 0, report);
-      ADD_FAILURE() << part;
-    }
-    catch (const InvalidArgument& error) {
-      EXPECT_NE(std::string::npos, error.message().find(part)) << error.message();
-    }
+    });
   };
   shape.cells = {{16384, 16384, 16384}};
-  refuses("16384 x 16384 x 16384 cells needs 53 TB of memory");
+  const pcl_uvol::Message large = refusal();
+  EXPECT_EQ("not_enough_memory", large.code);
+  EXPECT_NE(std::string::npos,
+            uvol_test::wordOf(large, "what").find("16384 x 16384 x 16384"));
+  EXPECT_EQ("53 TB", uvol_test::wordOf(large, "needed"));
   shape.cells = {{0, 4, 4}};
-  refuses("1 to 16384");
+  const pcl_uvol::Message not_allowed("voronoi_grid_not_allowed", {{"most", 16384}});
+  EXPECT_EQ(not_allowed, refusal());
   shape.cells = {{4, 4, 4}};
   shape.spacing[1] = 0.0;
-  refuses("finite positive sides");
+  EXPECT_EQ(not_allowed, refusal());
   shape.spacing[1] = 1.0;
   EXPECT_THROW(VoronoiGrid(shape, points.xyz.data(), 3, {}, way, 0, report),
                InvalidArgument);

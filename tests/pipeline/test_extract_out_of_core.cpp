@@ -5,6 +5,7 @@
 #include "pipeline/extract_out_of_core.h"
 #include "support/clouds.h"
 #include "support/environment.h"
+#include "support/messages.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
@@ -211,19 +212,6 @@ TEST_F(OutOfCore, DoesNotDependOnThreads)
                         one.isopoints.size() * sizeof(pcl_uvol::PointIso)));
 }
 
-template <typename Error>
-void
-expectSentence(const std::function<void()>& run, const std::string& part)
-{
-  try {
-    run();
-    FAIL() << "no error";
-  }
-  catch (const Error& error) {
-    EXPECT_NE(std::string::npos, std::string(error.what()).find(part)) << error.what();
-  }
-}
-
 TEST_F(OutOfCore, RefusesWhatCannotWork)
 {
   save(*uvol_test::makeCloud("uniform", 1000, 8));
@@ -239,11 +227,17 @@ TEST_F(OutOfCore, RefusesWhatCannotWork)
     };
   };
   OutOfCoreSettings enough{std::uint64_t(1) << 30, folder_ / "", 0};
-  expectSentence<pcl_uvol::InvalidArgument>(run("density", enough), "density");
-  expectSentence<pcl_uvol::InvalidArgument>(
-      run("intensity", {1000000, folder_ / "", 0}), "at least");
-  expectSentence<pcl_uvol::IOError>(
-      run("intensity", {enough.max_memory, "/nowhere", 0}), "/nowhere");
+  const auto unknown =
+      uvol_test::thrownBy<pcl_uvol::InvalidArgument>(run("density", enough));
+  EXPECT_EQ("unknown_field", unknown.code);
+  EXPECT_EQ("density", uvol_test::wordOf(unknown, "field"));
+  EXPECT_EQ("memory_for_pieces",
+            uvol_test::codeOf<pcl_uvol::InvalidArgument>(
+                run("intensity", {1000000, folder_ / "", 0})));
+  const auto refused =
+      uvol_test::thrownBy(run("intensity", {enough.max_memory, "/nowhere", 0}));
+  EXPECT_EQ("scratch_folder_refused", refused.code);
+  EXPECT_EQ("/nowhere", uvol_test::wordOf(refused, "folder"));
   EXPECT_EQ(std::vector<std::string>{"in.pcd"}, folder_.list());
 }
 
@@ -342,7 +336,9 @@ TEST_F(OutOfCore, SaysThatTheDiskIsFull)
   const auto handler = std::signal(SIGXFSZ, SIG_IGN);
   const rlimit tight{500000, before.rlim_max};
   ASSERT_EQ(0, setrlimit(RLIMIT_FSIZE, &tight));
-  expectSentence<pcl_uvol::IOError>([&] { extract(settings); }, "500 kB");
+  const auto full = uvol_test::thrownBy([&] { extract(settings); });
+  EXPECT_EQ("scratch_folder_full", full.code);
+  EXPECT_EQ("500 kB", uvol_test::wordOf(full, "size"));
   setrlimit(RLIMIT_FSIZE, &before);
   std::signal(SIGXFSZ, handler);
   EXPECT_EQ(std::vector<std::string>{"in.pcd"}, folder_.list());
@@ -357,8 +353,8 @@ TEST_F(OutOfCore, RefusesMoreAtOnePlaceThanFits)
   IsosurfaceParameters settings;
   settings.field = "intensity";
   settings.isovalues = {0.3};
-  expectSentence<pcl_uvol::InvalidArgument>([&] { extract(settings); },
-                                            "at one position");
+  EXPECT_EQ("memory_for_piece",
+            uvol_test::codeOf<pcl_uvol::InvalidArgument>([&] { extract(settings); }));
 }
 
 TEST_F(OutOfCore, HasNothingToSayOfNothing)

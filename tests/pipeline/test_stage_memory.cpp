@@ -4,6 +4,7 @@
 #include "common/memory.h"
 #include "interpolation/sph_density.h"
 #include "support/environment.h"
+#include "support/messages.h"
 #include <pcl_uvol/expressions/derived_fields.h>
 #include <pcl_uvol/interpolation/field_interpolation.h>
 #include <pcl_uvol/levelset/level_set_evolution.h>
@@ -60,7 +61,12 @@ runShortOfMemory(const std::function<void()>& run)
     run();
   }
   catch (const pcl_uvol::NotEnoughMemory& error) {
-    std::fputs(error.message().c_str(), stderr);
+    const pcl_uvol::Message& told = error.asMessage();
+    std::fputs((told.code + ' ' + uvol_test::wordOf(told, "what") + ' ' +
+                uvol_test::wordOf(told, "needed") + ' ' +
+                uvol_test::wordOf(told, "available"))
+                   .c_str(),
+               stderr);
     std::_Exit(0);
   }
   catch (...) {
@@ -89,8 +95,7 @@ protected:
                   compute(stage);
                 }),
                 testing::ExitedWithCode(0),
-                task + " of 1000000 points needs [0-9]+ MB of memory, and only [0-9]+ "
-                       "MB are available");
+                "not_enough_memory " + task + " of 1000000 points [0-9]+ MB [0-9]+ MB");
   }
 
   const pcl::PointCloud<PointXYZI>::Ptr points_ = makePoints();
@@ -144,7 +149,7 @@ TEST_F(StageMemory, IsCheckedBeforeIsosurfaces)
                 pipeline.run();
               }),
               testing::ExitedWithCode(0),
-              "An isosurface of 1000000 points needs [0-9]+ MB of memory, and only");
+              "not_enough_memory An isosurface of 1000000 points [0-9]+ MB [0-9]+ MB");
 }
 
 /** A stage that has less than it needs of a limit for the process. */

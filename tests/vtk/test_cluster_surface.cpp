@@ -362,14 +362,10 @@ TEST(ClusterSurfaces, NameThePointThatLeavesNoHull)
 {
   Points points = ballOf(2000, 4);
   points.emplace(points.begin() + 7, 1000.0, 0.0, 0.0);
-  try {
-    Cluster(points).enclose(ClusterSurfaceKind::Hull, 0.0);
-    FAIL() << "a hull of two cells";
-  }
-  catch (const InvalidArgument& error) {
-    EXPECT_NE(std::string::npos, error.message().find("exclude point 7 ("))
-        << error.message();
-  }
+  const auto error = uvol_test::thrownBy<InvalidArgument>(
+      [&] { Cluster(points).enclose(ClusterSurfaceKind::Hull, 0.0); });
+  EXPECT_EQ("no_hull", error.code);
+  EXPECT_EQ(7.0, numberOf(error, "point"));
 }
 
 TEST(ClusterSurfaces, RefuseWhatTheyCannotEnclose)
@@ -410,15 +406,11 @@ TEST(ClusterSurfaces, RefuseWhatIsLargerThanFloat)
 
 TEST(ClusterSurfaces, SayHowFineTheGridMustBe)
 {
-  try {
-    Cluster(ballOf(500, 4)).enclose(ClusterSurfaceKind::Distance, 0.01);
-    ADD_FAILURE();
-  }
-  catch (const InvalidArgument& error) {
-    EXPECT_NE(std::string::npos,
-              error.message().find("too small for grid cells of 0.02"))
-        << error.message();
-  }
+  const auto error = uvol_test::thrownBy<InvalidArgument>(
+      [] { Cluster(ballOf(500, 4)).enclose(ClusterSurfaceKind::Distance, 0.01); });
+  EXPECT_EQ("small_cluster_distance", error.code);
+  EXPECT_EQ(0.01, numberOf(error, "distance"));
+  EXPECT_NEAR(0.02, numberOf(error, "cell"), 0.01);
 }
 
 TEST(ClusterSurfaces, DoNotDependOnThreads)
