@@ -1,13 +1,40 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The warnings of a report that a tool printed with -json, by their codes.
+// Runs of tools, and the warnings of a report that is printed as JSON, by their codes.
 #pragma once
 
 #include "support/environment.h"
 
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace uvol_test {
+
+/** \brief A run that has to succeed.
+ * \throws std::runtime_error, which fails the test, if it did not */
+inline CommandResult
+succeeded(CommandResult result)
+{
+  if (result.exit_code != 0)
+    throw std::runtime_error("exit code " + std::to_string(result.exit_code) + ": " +
+                             result.err);
+  return result;
+}
+
+/** \brief What a command wrote that has to succeed. */
+inline CommandResult
+runWell(const std::string& command)
+{
+  return succeeded(runCommand(command));
+}
+
+/** \brief The report of a run with -json that has to succeed. */
+inline nlohmann::json
+jsonOf(const CommandResult& result)
+{
+  return nlohmann::json::parse(succeeded(result).out);
+}
 
 /** \brief The values of the first warning of a code; null without one. */
 inline nlohmann::json

@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <nlohmann/json.hpp>
 #include <regex>
 #include <sstream>
 #include <string>
@@ -46,6 +48,25 @@ expectSentences(const std::string& tool, const CommandResult& result)
   if (result.exit_code >= 0 && result.exit_code < least_signal) {
     EXPECT_EQ(result.exit_code == 0 ? 0u : 1u, errors) << result.err;
   }
+}
+
+/** A run with -json that failed in one sentence, below which a wrong expression may be
+ * marked: with the exit code 2 for a wrong command line, else 1.
+ * \param value a part of the values of the error */
+inline void
+expectError(const CommandResult& result,
+            const std::string& code,
+            const std::string& value = "")
+{
+  EXPECT_EQ(code == "command_line" ? 2 : 1, result.exit_code) << result.err;
+  const bool is_marked = result.err.find("\n  ") != std::string::npos;
+  EXPECT_EQ(is_marked ? 3 : 1, std::count(result.err.begin(), result.err.end(), '\n'))
+      << result.err;
+  ASSERT_TRUE(nlohmann::json::accept(result.out)) << result.out << result.err;
+  const auto error = nlohmann::json::parse(result.out).at("error");
+  EXPECT_EQ(code, error.at("code")) << error;
+  EXPECT_NE(std::string::npos, error.at("values").dump().find(value))
+      << value << ' ' << error;
 }
 
 } // namespace uvol_test

@@ -3,6 +3,7 @@
 // others, whatever draws them; what lies where samples are is drawn as without them.
 #include "support/environment.h"
 #include "support/png.h"
+#include "tools/json_warnings.h"
 #include <pcl_uvol/common/point_types.h>
 #include <pcl_uvol/io/dataset.h>
 
@@ -90,14 +91,11 @@ findDots(const Image& image)
 TEST_P(BridgedPoints, AreSinglePalePixels)
 {
   const auto [tool, drawn] = GetParam();
-  const CommandResult covered =
-      runCommand("uvol_splats " + (folder_ / "s.ply") + " " + (folder_ / "splats.ply"));
-  ASSERT_EQ(0, covered.exit_code) << covered.err;
+  runWell("uvol_splats " + (folder_ / "s.ply") + " " + (folder_ / "splats.ply"));
   const std::string command =
       std::string(tool) + " '" + (folder_ / drawn) + "' '" + (folder_ / "s.png") +
       "' -size 200x200 -view top -zoom 0.6 -surface-color 0.2,0.2,0.2 ";
-  const CommandResult result = runCommand(command + "-json");
-  ASSERT_EQ(0, result.exit_code) << result.err;
+  const CommandResult result = runWell(command + "-json");
   EXPECT_EQ(points,
             nlohmann::json::parse(result.out)["counts"]["bridged"].get<std::size_t>());
   int channels = 0;

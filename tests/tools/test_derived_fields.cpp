@@ -3,7 +3,7 @@
 #include "common/scalar_field.h"
 #include "support/environment.h"
 #include "support/flows.h"
-#include "tools/json_warnings.h"
+#include "tools/tool_test.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/io/dataset.h>
 
@@ -38,26 +38,10 @@ protected:
     EXPECT_EQ(0, result.exit_code) << command << ": " << result.err;
   }
 
-  void
-  expectFailure(const std::string& command,
-                int exit_code,
-                const std::string& text) const
-  {
-    const auto result = runCommand(command);
-    EXPECT_EQ(exit_code, result.exit_code) << command;
-    EXPECT_NE(std::string::npos, result.err.find(text)) << result.err;
-  }
-
   std::vector<double>
   valuesOf(const std::string& path, const std::string& name) const
   {
-    const Dataset dataset = loadDataset(path);
-    const CloudView cloud = viewOf(dataset.cloud);
-    const ScalarField field(cloud.fields, name);
-    std::vector<double> values;
-    for (std::size_t i = 0; i < cloud.count; ++i)
-      values.push_back(field.read(cloud.point(i)));
-    return values;
+    return fieldOf(loadDataset(path), name);
   }
 
   TemporaryFolder folder_;
@@ -81,9 +65,10 @@ TEST_F(DerivedFields, IsosurfaceOfAVortexCriterion)
   expectSuccess("uvol_render " + out_ + " " + png_ +
                 " -size 64 -color 'ln(|curl(v)|)'");
   expectSuccess("uvol_raytrace " + out_ + " " + png_ + " -size 32 -color '1+\"Q(v)\"'");
-  expectFailure("uvol_render " + out_ + " " + png_ + " -color 'Q(vx,vy,vz)'",
-                1,
-                "from points on a surface");
+  expectError(
+      runCommand("uvol_render " + out_ + " " + png_ + " -json -color 'Q(vx,vy,vz)'"),
+      "no_derivatives",
+      "Q(vx,vy,vz)");
 }
 
 TEST_F(DerivedFields, TheSameAsAColumnOfTheFile)
@@ -110,14 +95,13 @@ TEST_F(DerivedFields, FromDiskTheSameBytes)
   expectSuccess("uvol_isosurface " + in_ + " " + out_ + job);
   expectSuccess("uvol_isosurface " + in_ + " " + other + job + "-max-memory 200M");
   EXPECT_EQ(readFile(out_), readFile(other));
-  expectFailure("uvol_isosurface " + in_ + " " + other +
-                    " -field 'Q(v)' -iso 1 -max-memory 200M",
-                2,
-                "derivatives");
+  expectError(runCommand("uvol_isosurface " + in_ + " " + other +
+                         " -json -field 'Q(v)' -iso 1 -max-memory 200M"),
+              "command_line",
+              "derivatives");
   // Points that are undefined are told once, although they are read twice.
-  const auto result = runCommand("uvol_isosurface " + in_ + " " + other +
-                                 " -field 'sqrt(vx)' -iso 0.1 -max-memory 200M -json");
-  EXPECT_EQ(0, result.exit_code) << result.err;
+  const auto result = runWell("uvol_isosurface " + in_ + " " + other +
+                              " -field 'sqrt(vx)' -iso 0.1 -max-memory 200M -json");
   const auto report = nlohmann::json::parse(result.out);
   const auto told = uvol_test::warnedValues(report, "undefined_field");
   ASSERT_TRUE(told.is_object()) << result.out;
@@ -142,12 +126,13 @@ TEST_F(DerivedFields, WrongOnesAreMarked)
 {
   const auto result = runCommand("uvol_isosurface " + in_ + " " + out_ +
                                  " -field 'sqrt(vx + wy)' -iso 1 -json");
-  EXPECT_EQ(1, result.exit_code);
-  EXPECT_TRUE(uvol_test::hasMessage(result, "unknown_operand")) << result.out;
+  expectError(result, "unknown_operand", R"("  sqrt(vx + wy)\n            ^")");
   EXPECT_NE(std::string::npos, result.err.find("\n  sqrt(vx + wy)\n            ^\n"))
       << result.err;
   EXPECT_EQ(std::vector<std::string>{"in.csv"}, folder_.list());
-  expectFailure("uvol_info " + in_ + " -where 'vx ~ 3'", 1, "^");
+  expectError(runCommand("uvol_info " + in_ + " -json -where 'vx ~ 3'"),
+              "operator_missing",
+              "^");
 }
 
 TEST(DerivedFieldsOfRealData, VorticesOfARotatingDisk)
@@ -157,16 +142,15 @@ TEST(DerivedFieldsOfRealData, VorticesOfARotatingDisk)
     GTEST_SKIP() << "no folder of real data";
   const TemporaryFolder folder;
   const std::string out = folder / "out.ply";
-  const auto result = runCommand("uvol_isosurface " + data + "/cfd/disk_out_ref.vtu " +
-                                 out + " -field 'Q(V)' -iso 0.5");
-  ASSERT_EQ(0, result.exit_code) << result.err;
+  runWell("uvol_isosurface " + data + "/cfd/disk_out_ref.vtu " + out +
+          " -field 'Q(V)' -iso 0.5");
   const Dataset surface = loadDataset(out);
   EXPECT_GT(surface.cloud.width, 2000u);
   EXPECT_NE(findField(surface.cloud.fields, "Q(V)"), nullptr);
   // Layers of samples near the disk once made it a million.
-  const auto info =
-      runCommand("uvol_info " + data + "/cfd/disk_out_ref.vtu -where '|Q(V)|>2000'");
-  EXPECT_NE(std::string::npos, info.out.find("removed by where 8499")) << info.out;
+  const auto info = runCommand("uvol_info " + data +
+                               "/cfd/disk_out_ref.vtu -json -where '|Q(V)|>2000'");
+  EXPECT_EQ(8499, nlohmann::json::parse(info.out).at("counts").at("removed_by_where"));
 }
 
 } // namespace test_derived_fields

@@ -3,6 +3,7 @@
 // places of input and output. It ends by itself, with one sentence unless it succeeds;
 // the output is whole, or what was there before; nothing else is left.
 #include "sentences.h"
+#include "tools/json_warnings.h"
 
 #include <algorithm>
 #include <csignal>
@@ -45,8 +46,7 @@ protected:
                                       "uvol_isosurface in.csv mesh.ply -iso 2 -mesh"})
       ASSERT_EQ(0, runCommand("cd '" + (folder_ / "") + "' && " + command).exit_code);
     inputs_ = folder_.list();
-    const auto result = run({});
-    ASSERT_EQ(0, result.exit_code) << result.err;
+    uvol_test::succeeded(run({}));
     expected_ = readFile(out());
   }
 

@@ -45,18 +45,6 @@ protected:
   {
     return runTool(tool + " in.csv " + options);
   }
-
-  /** That exit code and that sentence. */
-  void
-  expectRefused(const std::string& tool,
-                const std::string& options,
-                int exit_code,
-                const std::string& sentence) const
-  {
-    const auto result = run(tool, options);
-    EXPECT_EQ(exit_code, result.exit_code) << tool << ' ' << options;
-    EXPECT_NE(std::string::npos, result.err.find(sentence)) << result.err;
-  }
 };
 
 /** Each tool that reads samples, with what it needs. */
@@ -73,18 +61,17 @@ const std::pair<const char*, const char*> jobs[] = {
 
 const std::string chosen = "-xyz ix,iy,iz -where \"experiment=1 && site='low'\" ";
 
-/** How often a sentence stands in the warnings. */
+/** How often samples contradict each other in the warnings of a run. */
 std::size_t
-countWarnings(const CommandResult& result, const std::string& sentence)
+countConflicts(const CommandResult& result)
 {
-  std::size_t count = 0;
-  for (std::size_t at = result.err.find(sentence); at != std::string::npos;
-       at = result.err.find(sentence, at + 1))
-    ++count;
-  return count;
+  const auto warnings = nlohmann::json::parse(result.out).at("warnings");
+  return static_cast<std::size_t>(
+      std::count_if(warnings.begin(), warnings.end(), [](const auto& warning) {
+        return warning.at("code") == "conflicting_samples" &&
+               warning.value("times", 1) == 1;
+      }));
 }
-
-const std::string conflicts = "several different values";
 
 TEST_F(InputOptions, AreThoseOfEveryTool)
 {
@@ -93,12 +80,13 @@ TEST_F(InputOptions, AreThoseOfEveryTool)
     ASSERT_EQ(0, result.exit_code) << tool << ": " << result.err;
     const auto counts = nlohmann::json::parse(result.out).at("counts");
     EXPECT_EQ(1458 - 324, counts.at("removed_by_where")) << tool;
-    expectRefused(tool, std::string(options) + "-xyz ix,iy", 2, "three columns");
+    const std::string job = std::string(tool) + " in.csv " + options;
+    expectError(job + "-xyz ix,iy", "command_line", "-xyz");
     if (std::string(tool) != "info" && std::string(tool) != "cluster")
-      expectRefused(tool, options, 1, "(-xyz)");
+      expectError(job, "ambiguous_integers", "experiment");
   }
-  EXPECT_EQ(
-      0, run("project", "out.ply -attributes x,y,t -label label " + chosen).exit_code);
+  uvol_test::succeeded(
+      run("project", "out.ply -attributes x,y,t -label label " + chosen));
 }
 
 TEST_F(InputOptions, ChooseTheSamplesThatLevelSetsAndNormalsKeep)
@@ -121,40 +109,34 @@ TEST_F(InputOptions, ReportSamplesThatContradictEachOther)
                                 "levelset in.csv out.ply -field t -iso 9 -steps 3 ",
                                 "measure in.csv -field t -iso 9 ",
                                 "probe in.csv out.csv -field t,label -grid 3x3x3 "}) {
-    const auto all = runTool(job + "-xyz ix,iy,iz");
-    EXPECT_EQ(1u, countWarnings(all, conflicts)) << job << all.err;
-    const auto one = runTool(job + "-xyz ix,iy,iz -where experiment=1");
-    EXPECT_EQ(0u, countWarnings(one, conflicts)) << job << one.err;
+    const std::string all = job + "-json -xyz ix,iy,iz ";
+    EXPECT_EQ(1u, countConflicts(runTool(all))) << job;
+    EXPECT_EQ(0u, countConflicts(runTool(all + "-where experiment=1"))) << job;
   }
   write("in.csv", makeExperiments(0.0)); // the same twice is no contradiction
   EXPECT_EQ(0u,
-            countWarnings(run("isosurface", "out.ply -field t -iso 9 -xyz ix,iy,iz"),
-                          conflicts));
+            countConflicts(runTool("isosurface in.csv out.ply -field t -iso 9 -json "
+                                   "-xyz ix,iy,iz")));
 }
 
 TEST_F(InputOptions, TakeNoNamesForValues)
 {
-  const std::string places = "-xyz ix,iy,iz ";
-  for (const std::string options : {"out.ply -field site -iso 0.5 ",
-                                    "out.ply -field '\"site\"' -iso 0.5 ",
-                                    "out.ply -field site -iso 0.5 -max-memory 500M "})
-    expectRefused("isosurface", options + places, 1, "'site' contains names");
-  expectRefused(
-      "levelset", "out.ply -field site -iso 0.5 " + places, 1, "'site' contains names");
-  expectRefused(
-      "probe", "out.csv -field site -grid 3x3x3 " + places, 1, "'site' contains names");
-  expectRefused(
-      "measure", "-field site -iso 0.5 " + places, 1, "'site' contains names");
-  expectRefused(
-      "cluster", "out.csv -attributes t,site " + places, 1, "'site' contains names");
+  for (const std::string job : {"isosurface in.csv out.ply -iso 0.5 -field site",
+                                "isosurface in.csv out.ply -iso 0.5 -field '\"site\"'",
+                                "isosurface in.csv out.ply -iso 0.5 -max-memory 500M "
+                                "-field site",
+                                "levelset in.csv out.ply -iso 0.5 -field site",
+                                "probe in.csv out.csv -grid 3x3x3 -field site",
+                                "measure in.csv -iso 0.5 -field site",
+                                "cluster in.csv out.csv -attributes t,site"})
+    expectError(job + " -xyz ix,iy,iz", "field_of_names", "site");
 }
 
 TEST_F(InputOptions, DoNotPredictTheStepToTheValueOutside)
 {
-  expectRefused("isosurface",
-                "out.ply -field t -iso 9 -fill-gaps -outside-value 0",
-                2,
-                "-fill-gaps cannot be combined with -outside-value");
+  expectError("isosurface in.csv out.ply -field t -iso 9 -fill-gaps -outside-value 0",
+              "command_line",
+              "-outside-value");
 }
 
 } // namespace test_input_options

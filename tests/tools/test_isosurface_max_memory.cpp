@@ -60,13 +60,12 @@ TEST_F(MaxMemory, WritesTheSameFile)
                                     "-max-error 0.001 -drop-bridged -threads 1"}) {
     expectSuccess(iso_ + options);
     const std::string expected = uvol_test::readFile(out_);
-    const auto result = run(iso_ + options + " " + bound_);
-    EXPECT_EQ(0, result.exit_code) << result.err;
+    const auto result = uvol_test::succeeded(run(iso_ + options + " -json " + bound_));
     EXPECT_EQ(expected, uvol_test::readFile(out_)) << options;
-    EXPECT_TRUE(std::regex_search(result.out, std::regex("pieces [2-9]")))
-        << result.out;
-    EXPECT_NE(std::string::npos, result.out.find("sampling: all around")) << result.out;
-    EXPECT_NE(std::string::npos, result.err.find("No isopoints for 2")) << result.err;
+    const auto report = nlohmann::json::parse(result.out);
+    EXPECT_GE(report.at("counts").at("pieces"), 2);
+    EXPECT_GT(report.at("sampling").at("volume"), 0.9);
+    EXPECT_EQ("2", uvol_test::warnedValues(report, "no_isopoints").at("isovalue"));
   }
 }
 
@@ -74,9 +73,8 @@ TEST_F(MaxMemory, WritesTheSameFile)
 TEST_F(MaxMemory, ReportsWeakSupportAsInMemory)
 {
   const std::string cloud = folder_ / "cloud.pcd";
-  const auto made = uvol_test::runCommand("uvol_generate " + cloud +
-                                          " -field torus -n 60000 -samples holes");
-  ASSERT_EQ(0, made.exit_code) << made.err;
+  uvol_test::runWell("uvol_generate " + cloud +
+                     " -field torus -n 60000 -samples holes");
   for (const std::string interpolation : {"linear", "fit"}) {
     const auto extract = [&](const std::string& options) {
       return uvol_test::runCommand(
@@ -104,17 +102,6 @@ TEST_F(MaxMemory, ReportsWeakSupportAsInMemory)
   }
 }
 
-/** Megabytes behind a word of the report's line on memory. */
-double
-megabytesBehind(const std::string& word, const std::string& report)
-{
-  std::smatch match;
-  EXPECT_TRUE(std::regex_search(
-      report, match, std::regex("memory: .*" + word + " ([0-9.]+) MB")))
-      << report;
-  return match.empty() ? 0.0 : std::stod(match[1]);
-}
-
 TEST_F(MaxMemory, IsABoundThatHolds)
 {
 #if defined(__SANITIZE_ADDRESS__)
@@ -122,14 +109,12 @@ TEST_F(MaxMemory, IsABoundThatHolds)
 #endif
   const std::string cloud = folder_ / "cloud.pcd";
   for (const std::string samples : {"uniform", "clustered", "lattice"}) {
-    const auto made = uvol_test::runCommand("uvol_generate " + cloud +
-                                            " -n 1000000 -samples " + samples);
-    ASSERT_EQ(0, made.exit_code) << made.err;
-    const auto result = uvol_test::runCommand("uvol_isosurface " + cloud + " " + out_ +
-                                              " -iso 20 -max-memory 170M");
-    ASSERT_EQ(0, result.exit_code) << result.err;
-    EXPECT_LE(megabytesBehind("peak", result.out),
-              megabytesBehind("bound", result.out));
+    uvol_test::runWell("uvol_generate " + cloud + " -n 1000000 -samples " + samples);
+    const auto memory = uvol_test::jsonOf(
+        uvol_test::runCommand("uvol_isosurface " + cloud + " " + out_ +
+                              " -iso 20 -max-memory 170M -json"))["memory"];
+    EXPECT_EQ(170e6, memory.at("bound"));
+    EXPECT_LE(memory.at("peak"), memory.at("bound"));
   }
 }
 
@@ -188,30 +173,32 @@ TEST_F(MaxMemory, HoldsForManyFieldsOrRefuses)
 
 TEST_F(MaxMemory, SaysWhatIsWrong)
 {
-  for (const std::string size : {"x", "0", "1.5", "2X", "M", "nan", "1e30"})
-    expectFailure(iso_ + "-max-memory " + size, size == "1.5" ? 1 : 2, "memory");
-  expectError(iso_ + "-max-memory 100M", "memory_for_pieces");
-  expectFailure(iso_ + bound_ + "-smooth", 2, "-smooth");
-  expectFailure(iso_ + bound_ + "-scale auto", 2, "-scale auto");
-  expectFailure(iso_ + bound_ + "-fill-gaps -smooth", 2, "-smooth, -fill-gaps: all");
-  expectFailure(iso_ + bound_ + "-neighbors voronoi", 2, "-neighbors voronoi");
-  expectFailure(iso_ + bound_ + "-where 'x>0'", 2, "-where");
-  expectFailure(iso_ + bound_ + "-fill-gaps", 2, "-fill-gaps");
-  expectFailure(iso_ + "-scratch .", 2, "-max-memory");
-  expectFailure(iso_ + bound_ + "-scratch /nowhere", 1, "/nowhere");
-  expectFailure(bound_ + "-iso 0.3 -field density", 1, "density");
+  for (const std::string size : {"x", "0", "2X", "M", "nan", "1e30"})
+    expectUsageErrors(iso_, {"-max-memory " + size});
+  for (const std::string size : {"1.5", "100M"})
+    expectError(iso_ + "-max-memory " + size, "memory_for_pieces");
+  expectUsageErrors(iso_ + bound_,
+                    {"-smooth",
+                     "-scale auto",
+                     "-fill-gaps -smooth",
+                     "-neighbors voronoi",
+                     "-where 'x>0'",
+                     "-fill-gaps"});
+  expectUsageErrors(iso_, {"-scratch ."});
+  expectError(
+      iso_ + bound_ + "-scratch /nowhere", "scratch_folder_refused", "/nowhere");
+  expectError(bound_ + "-iso 0.3 -field density", "unknown_lone_field", "\"density\"");
 }
 
 TEST_F(MaxMemory, NamesFormatsThatDoNotStream)
 {
   const std::string whole = folder_ / "whole.vtp";
-  const auto made =
-      uvol_test::runCommand("uvol_isosurface " + in_ + " " + whole + " " + iso_);
-  ASSERT_EQ(0, made.exit_code) << made.err;
-  const auto result = uvol_test::runCommand("uvol_isosurface " + whole + " " + out_ +
-                                            " -field number -iso 100 " + bound_);
-  EXPECT_EQ(1, result.exit_code);
-  EXPECT_NE(std::string::npos, result.err.find("PCD")) << result.err;
+  uvol_test::runWell("uvol_isosurface " + in_ + " " + whole + " " + iso_);
+  uvol_test::expectError(uvol_test::runCommand("uvol_isosurface " + whole + " " + out_ +
+                                               " -field number -iso 100 -json " +
+                                               bound_),
+                         "not_streamable",
+                         "whole.vtp");
 }
 
 /** A disk that is full from a write on, as the library of faults makes it, and files
@@ -230,9 +217,8 @@ TEST_F(MaxMemory, AFullScratchFolderIsOneSentence)
     SCOPED_TRACE(limit);
     const auto result =
         uvol_test::runCommand(limit + "timeout 30 uvol_isosurface " + in_ + ' ' + out_ +
-                              ' ' + iso_ + bound_ + "-scratch " + scratch);
-    EXPECT_EQ(1, result.exit_code);
-    EXPECT_NE(std::string::npos, result.err.find("The scratch folder ")) << result.err;
+                              ' ' + iso_ + bound_ + "-json -scratch " + scratch);
+    uvol_test::expectError(result, "scratch_folder_full", "scratch");
     uvol_test::expectSentences(tool_, result);
     EXPECT_EQ((std::vector<std::string>{"in.csv", "scratch"}), folder_.list());
     EXPECT_TRUE(fs::is_empty(scratch));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // uvol_isosurface with neighbours from a discrete Voronoi diagram (thesis 2.1).
 #include "support/environment.h"
+#include "tools/json_warnings.h"
+#include "tools/sentences.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/io/dataset.h>
 
@@ -22,9 +24,8 @@ protected:
   SetUpTestSuite()
   {
     folder = new uvol_test::TemporaryFolder;
-    const auto result =
-        runCommand("uvol_generate " + *folder / "in.pcd" + " -field sphere -n 20000");
-    ASSERT_EQ(0, result.exit_code) << result.err;
+    uvol_test::runWell("uvol_generate " + *folder / "in.pcd" +
+                       " -field sphere -n 20000");
   }
 
   static void
@@ -56,15 +57,15 @@ protected:
   }
 
   static void
-  expectFailure(const std::string& options, int exit_code, const std::string& text)
+  expectError(const std::string& options,
+              const std::string& code,
+              const std::string& value)
   {
+    SCOPED_TRACE(options);
     std::remove((*folder / "out.ply").c_str());
     const auto before = folder->list();
-    const auto result = run(options);
-    EXPECT_EQ(exit_code, result.exit_code) << options << ": " << result.err;
-    EXPECT_NE(std::string::npos, result.err.find(text))
-        << options << ": " << result.err;
-    EXPECT_EQ(before, folder->list()) << options;
+    uvol_test::expectError(run(options + " -json"), code, value);
+    EXPECT_EQ(before, folder->list());
   }
 
   static uvol_test::TemporaryFolder* folder;
@@ -104,9 +105,8 @@ TEST_F(IsosurfaceVoronoi, SameBytesForAnyNumberOfThreads)
   for (const char* grid : {"", " -grid 20"}) {
     std::string expected;
     for (const char* threads : {"1", "2", "3", "0"}) {
-      const auto result =
-          run(std::string("-neighbors voronoi -threads ") + threads + grid);
-      ASSERT_EQ(0, result.exit_code) << result.err;
+      uvol_test::succeeded(
+          run(std::string("-neighbors voronoi -threads ") + threads + grid));
       if (expected.empty())
         expected = readFile(*folder / "out.ply");
       EXPECT_EQ(expected, readFile(*folder / "out.ply")) << threads << grid;
@@ -117,25 +117,25 @@ TEST_F(IsosurfaceVoronoi, SameBytesForAnyNumberOfThreads)
 TEST_F(IsosurfaceVoronoi, ScalesAndSmoothsAsWell)
 {
   for (const char* option : {"-scale 1,1,2", "-criterion all", "-smooth"}) {
-    const auto result = run(std::string("-neighbors voronoi -grid 16 ") + option);
-    ASSERT_EQ(0, result.exit_code) << result.err;
+    uvol_test::succeeded(run(std::string("-neighbors voronoi -grid 16 ") + option));
     EXPECT_LT(surfaceOf("out.ply").second, 0.05) << option;
   }
 }
 
 TEST_F(IsosurfaceVoronoi, RefusesOtherGrids)
 {
-  expectFailure("-grid 20", 2, "-neighbors voronoi");
-  expectFailure("-grid 20 -neighbors kdtree", 2, "-neighbors voronoi");
+  expectError("-grid 20", "command_line", "-neighbors");
+  expectError("-grid 20 -neighbors kdtree", "command_line", "-neighbors");
   for (const char* grid : {"0", "-1", "16385", "abc", "8x8x8", "4.5", "''"})
-    expectFailure(std::string("-neighbors voronoi -grid ") + grid, 2, "-grid");
-  expectFailure("-neighbors delaunay", 2, "delaunay");
+    expectError(
+        std::string("-neighbors voronoi -grid ") + grid, "command_line", "-grid");
+  expectError("-neighbors delaunay", "command_line", "delaunay");
 }
 
 TEST_F(IsosurfaceVoronoi, RefusesGridsThatDoNotFit)
 {
-  expectFailure("-neighbors voronoi -grid 16384", 1, "of memory, and only");
-  expectFailure("-neighbors voronoi -grid 16384", 1, "16384 x ");
+  expectError("-neighbors voronoi -grid 16384", "not_enough_memory", "TB");
+  expectError("-neighbors voronoi -grid 16384", "not_enough_memory", "16384 x ");
 }
 
 } // namespace test_isosurface_voronoi

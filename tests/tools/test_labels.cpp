@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Columns of names on their way through the tools: read, selected, carried to
 // isopoints, held out, drawn, and written by every format.
-#include "support/environment.h"
-#include "tools/json_warnings.h"
+#include "tools/tool_test.h"
 #include <pcl_uvol/io/dataset.h>
 
 #include <gtest/gtest.h>
@@ -38,29 +37,20 @@ makeHoles()
   return text.str();
 }
 
-class Labels : public testing::Test {
+class Labels : public FolderTest {
 protected:
   Labels()
   {
-    writeFile(folder_ / "holes.csv", makeHoles());
-  }
-
-  CommandResult
-  run(const std::string& command) const
-  {
-    return runCommand("cd '" + (folder_ / "") + "' && " PCL_UVOL_TOOL_DIR "/uvol_" +
-                      command);
+    write("holes.csv", makeHoles());
   }
 
   Dataset
   resultOf(const std::string& command, const std::string& output) const
   {
-    const CommandResult result = run(command);
+    const CommandResult result = runTool(command);
     EXPECT_EQ(0, result.exit_code) << command << ": " << result.err;
     return loadDataset(folder_ / output);
   }
-
-  TemporaryFolder folder_;
 };
 
 const std::string iso = "isosurface holes.csv s.ply -iso 7 ";
@@ -90,12 +80,10 @@ TEST_F(Labels, SelectPoints)
   EXPECT_EQ(20u, count("(hole=A-12 || hole=\"B-10\") && z>=-2.25"));
   EXPECT_NE(std::string::npos,
             readFile(folder_ / "b.csv").find("B-10")); // and not its number
-  const auto wrong = run("convert holes.csv b.csv -where hole=A-71");
-  EXPECT_EQ(1, wrong.exit_code);
-  EXPECT_NE(std::string::npos, wrong.err.find("did you mean 'A-11'")) << wrong.err;
-  const auto order = run("convert holes.csv b.csv -json -where 'hole<A-12'");
-  EXPECT_EQ(1, order.exit_code);
-  EXPECT_TRUE(uvol_test::hasMessage(order, "names_not_compared")) << order.out;
+  expectError("convert holes.csv b.csv -where hole=A-71",
+              "unknown_name",
+              R"("similar":"A-11")");
+  expectError("convert holes.csv b.csv -where 'hole<A-12'", "names_not_compared");
 }
 
 TEST_F(Labels, MayHoldQuotationMarks)
@@ -113,8 +101,7 @@ TEST_F(Labels, MayHoldQuotationMarks)
                   .cloud.width)
         << where;
   }
-  EXPECT_NE(std::string::npos,
-            run("convert pipes.csv b.csv -where \"pipe='5\"").err.find("not closed"));
+  expectError("convert pipes.csv b.csv -where \"pipe='5\"", "quotation_not_closed");
 }
 
 TEST_F(Labels, AreCarriedToIsopointsAndWrittenByEveryFormat)
@@ -122,7 +109,7 @@ TEST_F(Labels, AreCarriedToIsopointsAndWrittenByEveryFormat)
   const Dataset table = resultOf("isosurface holes.csv s.csv -iso 7", "s.csv");
   ASSERT_EQ(1u, table.labels.count("hole"));
   EXPECT_GT(table.labels.at("hole").size(), 5u);
-  const CommandResult told = run(iso + " -json");
+  const CommandResult told = runTool(iso + " -json");
   EXPECT_TRUE(uvol_test::hasMessage(told, "numbered_names_listed") ||
               uvol_test::hasMessage(told, "numbered_names"))
       << told.out;
@@ -130,47 +117,46 @@ TEST_F(Labels, AreCarriedToIsopointsAndWrittenByEveryFormat)
     const Dataset points =
         resultOf(std::string("isosurface holes.csv ") + format + " -iso 7", format);
     EXPECT_EQ(25u, points.labels.at("hole").size()) << format;
-    ASSERT_EQ(0, run(std::string("convert ") + format + " back.csv").exit_code);
+    ASSERT_EQ(0, runTool(std::string("convert ") + format + " back.csv").exit_code);
     // The digits of floats are the same in all of them.
     EXPECT_EQ(readFile(folder_ / "s.csv"), readFile(folder_ / "back.csv")) << format;
   }
-  ASSERT_EQ(0, run("isosurface holes.csv s.vtp -iso 7").exit_code);
+  ASSERT_EQ(0, runTool("isosurface holes.csv s.vtp -iso 7").exit_code);
   EXPECT_NE(std::string::npos, readFile(folder_ / "s.vtp").find("type=\"String\""));
 }
 
 TEST_F(Labels, DoNotDependOnThreadsAndMemory)
 {
-  ASSERT_EQ(0, run(iso + "-threads 1").exit_code);
+  ASSERT_EQ(0, runTool(iso + "-threads 1").exit_code);
   const std::string once = readFile(folder_ / "s.ply");
-  ASSERT_EQ(0, run(iso + "-threads 3").exit_code);
+  ASSERT_EQ(0, runTool(iso + "-threads 3").exit_code);
   EXPECT_EQ(once, readFile(folder_ / "s.ply"));
-  ASSERT_EQ(0, run(iso + "-interpolation fit").exit_code);
+  ASSERT_EQ(0, runTool(iso + "-interpolation fit").exit_code);
   const std::string all = readFile(folder_ / "s.ply");
-  ASSERT_EQ(0, run(iso + "-interpolation fit -max-memory 500M").exit_code);
+  ASSERT_EQ(0, runTool(iso + "-interpolation fit -max-memory 500M").exit_code);
   EXPECT_EQ(all, readFile(folder_ / "s.ply"));
 }
 
 TEST_F(Labels, AreFoldsOfTheHoldOutTest)
 {
-  const CommandResult result = run(iso + "-validate 5 -validate-by hole -json");
-  EXPECT_EQ(0, result.exit_code) << result.err;
+  const CommandResult result =
+      succeeded(runTool(iso + "-validate 5 -validate-by hole -json"));
   EXPECT_NE(std::string::npos, (result.out + result.err).find("side"));
 }
 
 TEST_F(Labels, AreColoursWithALegend)
 {
-  const CommandResult few = run(iso + "-where 'hole=A-12||hole=B-12||hole=34872||"
-                                      "hole=D-12||hole=E-12||hole=B-11||hole=D-13' "
-                                      "-color hole -png a.png -size 256x256");
-  EXPECT_EQ(0, few.exit_code) << few.err;
-  EXPECT_EQ(std::string::npos, few.err.find("no legend")) << few.err;
-  const CommandResult many = run(iso + "-color hole -png a.png -size 256x256");
-  EXPECT_EQ(0, many.exit_code) << many.err;
+  const CommandResult few =
+      succeeded(runTool(iso + "-where 'hole=A-12||hole=B-12||hole=34872||"
+                              "hole=D-12||hole=E-12||hole=B-11||hole=D-13' "
+                              "-color hole -png a.png -size 256x256 -json"));
+  EXPECT_FALSE(hasMessage(few, "repeated_colors")) << few.out;
+  succeeded(runTool(iso + "-color hole -png a.png -size 256x256"));
 }
 
 TEST_F(Labels, AreListedAndAreNoField)
 {
-  const CommandResult info = run("info holes.csv");
+  const CommandResult info = runTool("info holes.csv");
   EXPECT_NE(std::string::npos,
             info.out.find("hole: 25 names: 34870, 34871, 34872, 34873 ... E-14"))
       << info.out;

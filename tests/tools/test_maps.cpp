@@ -144,8 +144,8 @@ TEST_F(Maps, SurfacesOnDifferentMapsAreCompared)
 TEST_F(Maps, WarnsOfFilesInDifferentSystems)
 {
   write("a.csv", "x,y,z,T\n0,0,0,1\n1,0,0,2\n0,1,0,3\n0,0,1,4\n1,1,1,5\n");
-  const std::string output = runWell("info a.csv -map auto");
-  EXPECT_NE(std::string::npos, output.find("has no columns or fields of longitude"));
+  EXPECT_TRUE(
+      uvol_test::hasMessage(runTool("info a.csv -map auto -json"), "no_longitudes"));
 }
 
 /** A user's names of columns need not be those that are recognised. */
@@ -163,13 +163,8 @@ TEST_F(Maps, RefusesMapsThatAreNone)
 {
   write("a.csv", makeTable(8.0, -43.0, 20));
   for (const char* const map :
-       {"8", "8,-43,ft", "8,-43,m,", "8,91", "a,b", "nan,1", ","}) {
-    const auto result = runTool("convert a.csv b.ply -map " + std::string(map));
-    EXPECT_EQ(2, result.exit_code) << map;
-    EXPECT_NE(std::string::npos, result.err.find("-map takes auto, or longitude"))
-        << map << ": " << result.err;
-    EXPECT_FALSE(exists("b.ply")) << map;
-  }
+       {"8", "8,-43,ft", "8,-43,m,", "8,91", "a,b", "nan,1", ","})
+    expectError("convert a.csv b.ply -map " + std::string(map), "command_line", "-map");
 }
 
 /** A file of the collection beside the real data; "": it is not there. */
@@ -213,9 +208,9 @@ protected:
   nlohmann::json
   extract(const std::string& options) const
   {
-    const auto result = runTool("isosurface '" + glider_ +
-                                "' out.csv -field temperature -iso 8 -json " + options);
-    EXPECT_EQ(0, result.exit_code) << result.err;
+    const auto result = uvol_test::succeeded(
+        runTool("isosurface '" + glider_ +
+                "' out.csv -field temperature -iso 8 -json " + options));
     return nlohmann::json::parse(result.out);
   }
 

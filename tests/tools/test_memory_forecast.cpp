@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Tools forecast their memory, and refuse what does not fit before they begin.
 #include "support/environment.h"
+#include "tools/json_warnings.h"
+#include "tools/sentences.h"
 #include <pcl_uvol/io/dataset.h>
 
 #include <gtest/gtest.h>
@@ -54,15 +56,13 @@ const ToolRun runs[] = {
 /** Megabytes of a tool that has not begun, which would hide what is wrong. */
 constexpr double started = 9.0;
 
-/** "memory: forecast 110 MB, peak 108 MB" in megabytes. */
+/** Forecast and peak in megabytes, of a run with -json. */
 std::pair<double, double>
-readMemory(const std::string& report)
+readMemory(const nlohmann::json& report)
 {
-  const std::regex line("\nmemory: forecast ([0-9.]+) MB, peak ([0-9.]+) MB\n");
-  std::smatch match;
-  if (!std::regex_search(report, match, line))
-    return {0.0, 0.0};
-  return {std::stod(match[1]), std::stod(match[2])};
+  const auto& memory = report.at("memory");
+  return {1e-6 * memory.at("forecast").get<double>(),
+          1e-6 * memory.at("peak").get<double>()};
 }
 
 class MemoryForecast : public testing::TestWithParam<ToolRun> {
@@ -75,13 +75,13 @@ protected:
   }
 
   uvol_test::CommandResult
-  run(const std::string& before = "", const std::string& more = "") const
+  run(const std::string& before = "", const std::string& after = "") const
   {
     const ToolRun& tool = GetParam();
     return runCommand(before + "cd " + (folder_ / "") + " && " + tool.tool + ' ' +
                       (folder_ / tool.input) + ' ' +
                       (folder_ / (draws() ? "out.png" : "out.ply")) + ' ' +
-                      tool.options + more);
+                      tool.options + after);
   }
 
   static bool
@@ -122,8 +122,7 @@ protected:
   {
     static const uvol_test::TemporaryFolder made;
     if (const std::string path = made / name; !std::filesystem::exists(path)) {
-      const auto result = runCommand("cd " + (made / "") + " && " + command);
-      EXPECT_EQ(0, result.exit_code) << result.err;
+      uvol_test::runWell("cd " + (made / "") + " && " + command);
     }
     return made / name;
   }
@@ -151,11 +150,9 @@ TEST_P(MemoryForecast, IsEnoughAndNotTwiceThePeak)
   else
     in = makeOnce("in.pcd", "uvol_generate in.pcd -field torus -n 300000");
   std::filesystem::create_symlink(in, folder_ / GetParam().input);
-  const auto result = run();
-  ASSERT_EQ(0, result.exit_code) << result.err;
-  const auto [forecast, peak] = readMemory(result.out);
-  ASSERT_GT(peak, started + 10.0) << result.out;
-  EXPECT_GT(forecast, 0.98 * peak); // reports round both to three digits
+  const auto [forecast, peak] = readMemory(uvol_test::jsonOf(run("", " -json")));
+  ASSERT_GT(peak, started + 10.0);
+  EXPECT_GT(forecast, 0.98 * peak); // chosen for reports of three digits
   // FewSplats has 1.73: a splat for each point is counted.
   EXPECT_LT(forecast - started, 1.8 * (peak - started));
 }
@@ -175,25 +172,18 @@ TEST_P(MemoryForecast, RefusesWhatDoesNotFit)
                        "property float y\nproperty float z\nend_header\n");
   std::filesystem::resize_file(folder_ / GetParam().input, 64000001000u);
   const auto result = run("ulimit -v 7750000; ", " -json");
-  EXPECT_EQ(1, result.exit_code) << result.err;
-  const auto error = nlohmann::json::parse(result.out).at("error");
-  EXPECT_EQ("not_enough_memory", error.at("code"));
-  const auto valueOf = [&](const char* name) {
-    return error.at("values").at(name).get<std::string>();
-  };
-  EXPECT_EQ("Reading of 4000000000 points", valueOf("what"));
-  EXPECT_TRUE(std::regex_match(valueOf("needed"), std::regex("[0-9.]+ [GT]B")))
-      << result.err;
-  std::smatch match;
-  const std::string available = valueOf("available");
-  ASSERT_TRUE(std::regex_match(available, match, std::regex("([0-9.]+) GB")))
-      << result.err;
-  EXPECT_LT(std::stod(match[1]), 7.95); // 7750000 KiB are 7.94 GB
+  uvol_test::expectError(result, "not_enough_memory", "Reading of 4000000000 points");
+  const auto values = nlohmann::json::parse(result.out).at("error").at("values");
+  const std::string what = values.at("what"), needed = values.at("needed"),
+                    available = values.at("available");
+  EXPECT_TRUE(std::regex_match(needed, std::regex("[0-9.]+ [GT]B"))) << needed;
+  EXPECT_TRUE(std::regex_match(available, std::regex("[0-9.]+ GB"))) << available;
+  EXPECT_LT(std::stod(available), 7.95); // 7750000 KiB are 7.94 GB
   const std::string tool = GetParam().tool, options = GetParam().options;
   const bool has_bound = tool == "uvol_isosurface" &&
                          options.find("-smooth") == std::string::npos &&
                          options.find("grad(") == std::string::npos;
-  EXPECT_EQ(has_bound, result.err.find("Without -max-memory") != std::string::npos);
+  EXPECT_EQ(has_bound, what.find("-max-memory") != std::string::npos) << what;
   EXPECT_EQ((std::vector<std::string>{"in.pcd", "in.ply"}), folder_.list());
 }
 
@@ -204,17 +194,13 @@ TEST(MemoryOfSelectedRows, IsThatOfThoseLeft)
     GTEST_SKIP() << "Sanitizers take memory of their own.";
   const uvol_test::TemporaryFolder folder;
   const std::string in = folder / "in.pcd";
-  ASSERT_EQ(0,
-            runCommand("uvol_generate " + in + " -field torus -n 2000000").exit_code);
+  uvol_test::runWell("uvol_generate " + in + " -field torus -n 2000000");
   for (const std::string tool :
        {"uvol_isosurface -iso 0", "uvol_cluster -attributes torus"}) {
     const std::string all =
         "ulimit -d 110000; " + tool + " -threads 1 " + in + ' ' + (folder / "out.ply");
-    const auto refused = runCommand(all);
-    EXPECT_EQ(1, refused.exit_code) << refused.out;
-    EXPECT_NE(std::string::npos, refused.err.find("of memory")) << refused.err;
-    const auto result = runCommand(all + " -where 'x>0.8'");
-    EXPECT_EQ(0, result.exit_code) << result.err;
+    uvol_test::expectError(runCommand(all + " -json"), "not_enough_memory");
+    uvol_test::runWell(all + " -where 'x>0.8'");
   }
 }
 
@@ -225,14 +211,12 @@ TEST(MemoryOfGaps, IsEnoughAndNotThreeTimesThat)
     GTEST_SKIP() << "Sanitizers take memory of their own.";
   const uvol_test::TemporaryFolder folder;
   const std::string in = folder / "in.csv";
-  ASSERT_EQ(0,
-            runCommand("uvol_generate " + in + " -field sphere -samples casts -n 8000")
-                .exit_code);
-  const auto result = runCommand("uvol_isosurface " + in + ' ' + (folder / "out.ply") +
-                                 " -field sphere -iso 0 -fill-gaps");
-  ASSERT_EQ(0, result.exit_code) << result.err;
-  ASSERT_NE(std::string::npos, result.out.find(" samples predicted")) << result.out;
-  const auto [forecast, peak] = readMemory(result.out);
+  uvol_test::runWell("uvol_generate " + in + " -field sphere -samples casts -n 8000");
+  const auto report = uvol_test::jsonOf(
+      runCommand("uvol_isosurface " + in + ' ' + (folder / "out.ply") +
+                 " -field sphere -iso 0 -fill-gaps -json"));
+  ASSERT_GT(report.at("gaps").at("predicted"), 0);
+  const auto [forecast, peak] = readMemory(report);
   EXPECT_GE(forecast, peak);
   EXPECT_LE(forecast, 3.0 * peak);
 }

@@ -123,7 +123,7 @@ TEST(Options, MeanTheOptionThatBeginsSo)
     FAIL();
   }
   catch (const UsageError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("did you mean -field?"));
+    EXPECT_THAT(error.what(), HasSubstr("-field?"));
   }
 }
 
@@ -158,9 +158,10 @@ TEST(Options, HelpRefusesHeadingsThatAreNotThereAndListsThose)
       FAIL();
     }
     catch (const UsageError& error) {
-      EXPECT_STREQ("-h has no heading 'foo'; it takes all, 'Run', 'Input', "
-                   "'Surface', 'Fine points'.",
-                   error.what());
+      EXPECT_THAT(
+          error.what(),
+          testing::AllOf(HasSubstr("'foo'"),
+                         HasSubstr("'Run', 'Input', 'Surface', 'Fine points'")));
     }
   EXPECT_EQ(Line().help({"-h"}), Line().help({"-h", "-json"}));
 }
@@ -181,7 +182,7 @@ TEST(Options, NameTheValueThatIsMissing)
     FAIL();
   }
   catch (const UsageError& error) {
-    EXPECT_STREQ("The option -iso needs a value, 'v,...'.", error.what());
+    EXPECT_THAT(error.what(), testing::AllOf(HasSubstr("-iso"), HasSubstr("'v,...'")));
   }
 }
 

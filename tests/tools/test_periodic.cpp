@@ -59,23 +59,19 @@ protected:
 
 TEST_F(Periodic, ReportsNameTheBox)
 {
-  const auto result = run("-iso 0 -periodic 8,8,8 -json");
-  EXPECT_EQ(0, result.exit_code) << result.err;
+  const auto result = succeeded(run("-iso 0 -periodic 8,8,8 -json"));
   EXPECT_EQ("", result.err);
   EXPECT_NE(std::string::npos, result.out.find("\"periodic_box\"")) << result.out;
 }
 
 TEST_F(Periodic, WeldedMeshesAreClosedAcrossTheFaces)
 {
-  expectFailure("-iso 0 -periodic-mesh weld", 2, "-periodic-mesh needs -mesh.");
+  expectError("-iso 0 -periodic-mesh weld", "command_line", "-mesh");
   const std::string ply = folder_ / "out.ply";
   const std::string tool = PCL_UVOL_TOOL_DIR "/uvol_isosurface " + in_ + " " + ply +
                            " -iso 0.3 -mesh -periodic-mesh weld";
-  const auto alone = runCommand(tool);
-  EXPECT_EQ(2, alone.exit_code);
-  EXPECT_NE(std::string::npos, alone.err.find("-periodic-mesh needs -periodic."));
-  const auto welded = runCommand(tool + " -periodic 8,8,8");
-  EXPECT_EQ(0, welded.exit_code);
+  uvol_test::expectError(runCommand(tool + " -json"), "command_line", "-periodic-mesh");
+  const auto welded = runWell(tool + " -periodic 8,8,8");
   EXPECT_EQ("", welded.err);
   const auto pieces = welded.out.find("pieces: ");
   ASSERT_NE(std::string::npos, pieces);
@@ -172,9 +168,7 @@ TEST_F(Periodic, LatticesBeyondTheFacesAreAskedForAsPoints)
     runTool("uvol_probe", options);
     const auto points = pcl_uvol::loadDataset(out_);
     const std::string parts = folder_ / "out.vts";
-    const auto result =
-        runCommand(PCL_UVOL_TOOL_DIR "/uvol_probe " + in_ + " " + parts + options);
-    EXPECT_EQ(0, result.exit_code) << result.err;
+    runWell(PCL_UVOL_TOOL_DIR "/uvol_probe " + in_ + " " + parts + options);
     const auto written = pcl_uvol::loadDataset(parts);
     for (const char* const name : {"x", "y", "z", "f", "support"})
       EXPECT_EQ(fieldOf(points, name), fieldOf(written, name)) << lattice << name;
@@ -206,12 +200,11 @@ TEST_F(Periodic, HeadersNameTheBox)
   const std::string snapshot = folder_ / "snap";
   std::rename(in_.c_str(), snapshot.c_str());
   in_ = snapshot;
-  auto result = run("-field '|VEL|' -iso 200 -periodic header");
-  EXPECT_EQ(0, result.exit_code) << result.err;
-  EXPECT_NE(std::string::npos, result.out.find("sides 101,101,101 from 0,0,0"))
-      << result.out;
-  result = run("-field '|VEL|' -iso 200");
-  EXPECT_NE(std::string::npos, result.err.find("-periodic header")) << result.err;
+  const auto box =
+      jsonOf(run("-field '|VEL|' -iso 200 -json -periodic header")).at("periodic_box");
+  EXPECT_EQ(std::vector<double>(3, 101.0), box.at("sides"));
+  EXPECT_EQ(std::vector<double>(3, 0.0), box.at("low"));
+  EXPECT_TRUE(hasMessage(run("-field '|VEL|' -iso 200 -json"), "box_in_file"));
 }
 
 TEST_F(Periodic, WhatGoesWithWhat)

@@ -66,9 +66,8 @@ protected:
   Json
   probe(const std::string& options)
   {
-    const auto result =
-        runTool("probe in.vts out.csv -field f -points places.csv -json " + options);
-    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const auto result = succeeded(
+        runTool("probe in.vts out.csv -field f -points places.csv -json " + options));
     const auto answers = pcl_uvol::loadDataset(folder_ / "out.csv");
     values_ = fieldOf(answers, "f");
     support_ = fieldOf(answers, "support");
@@ -146,9 +145,7 @@ TEST_F(ProbeCells, OutsideOfAllThereAreNone)
 
 TEST_F(ProbeCells, PlanesHaveTheirHole)
 {
-  const auto result =
-      runTool("probe in.vts plane.csv -field f -plane z=0.8 -size 60 -json");
-  ASSERT_EQ(result.exit_code, 0) << result.err;
+  succeeded(runTool("probe in.vts plane.csv -field f -plane z=0.8 -size 60 -json"));
   const auto plane = pcl_uvol::loadDataset(folder_ / "plane.csv");
   const auto x = fieldOf(plane, "x"), y = fieldOf(plane, "y"), f = fieldOf(plane, "f");
   std::size_t inside = 0;
@@ -181,12 +178,10 @@ TEST_F(ProbeCells, DamagedCellsLeaveItToTheSamples)
       "Name=\"f\" format=\"ascii\">1 2 3 4</DataArray></PointData></Piece>"
       "</UnstructuredGrid></VTKFile>");
   writePlaces({{0.2, 0.2, 0.2}});
-  const auto result = runTool("probe mesh.vtu out.csv -field f -points places.csv "
-                              "-model nearest");
-  EXPECT_EQ(result.exit_code, 0);
-  EXPECT_NE((result.out + result.err).find("The cells of the input are not used"),
-            std::string::npos)
-      << result.out << result.err;
+  const auto result =
+      succeeded(runTool("probe mesh.vtu out.csv -field f -points places.csv "
+                        "-model nearest -json"));
+  EXPECT_TRUE(hasMessage(result, "cells_not_used")) << result.out << result.err;
   expectSentences("uvol_probe", result);
 }
 
@@ -216,9 +211,7 @@ TEST_F(ProbeCells, BluntFinHasNoGaps)
     }
   }
   writePlaces(places);
-  const auto result =
-      runTool("probe " + fin + " out.csv -field Density -points places.csv");
-  ASSERT_EQ(result.exit_code, 0) << result.err;
+  succeeded(runTool("probe " + fin + " out.csv -field Density -points places.csv"));
   const auto answers = pcl_uvol::loadDataset(folder_ / "out.csv");
   for (const double value : fieldOf(answers, "Density"))
     EXPECT_FALSE(std::isnan(value));

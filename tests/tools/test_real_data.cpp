@@ -130,10 +130,9 @@ TEST_P(OnRealData, ToolsRunAndFindTheSurface)
   const RealData& data = GetParam();
   const uvol_test::TemporaryFolder folder;
   EXPECT_EQ(0, runCommand("uvol_info '" + path_ + "'").exit_code);
-  const auto result = runCommand("uvol_isosurface '" + path_ + "' '" +
-                                 (folder / "out.ply") + "' -field '" + data.field +
-                                 "' -iso " + data.isovalues + " -json " + data.options);
-  ASSERT_EQ(0, result.exit_code) << result.err;
+  const auto result = uvol_test::runWell(
+      "uvol_isosurface '" + path_ + "' '" + (folder / "out.ply") + "' -field '" +
+      data.field + "' -iso " + data.isovalues + " -json " + data.options);
   // The lowest speed of the can is 2006, so that one of its isovalues is empty.
   EXPECT_EQ(std::string(data.file) == "cfd/can.vtu", reportsNoneAround(result.out))
       << result.out;
@@ -240,10 +239,9 @@ TEST(RealData, MeasuresOfAThinWallAreCoveredOrNotConstrained)
   if (uvol_test::dataFolder().empty())
     GTEST_SKIP() << "the folder of real data is not there ($PCL_UVOL_DATA)";
   const uvol_test::TemporaryFolder folder;
-  const auto result = runCommand("uvol_isosurface '" + uvol_test::dataFolder() +
-                                 "/cfd/can.vtu' '" + (folder / "out.ply") +
-                                 "' -field '|VEL|' -iso 3000 -mesh -measure -json");
-  ASSERT_EQ(0, result.exit_code) << result.err;
+  const auto result = uvol_test::runWell(
+      "uvol_isosurface '" + uvol_test::dataFolder() + "/cfd/can.vtu' '" +
+      (folder / "out.ply") + "' -field '|VEL|' -iso 3000 -mesh -measure -json");
   EXPECT_TRUE(uvol_test::hasMessage(result, "unconstrained_measures"));
   EXPECT_TRUE(uvol_test::hasMessage(result, "uncertain_measures"));
   // Of the part of the cells above 3000, by VTK.
@@ -266,14 +264,11 @@ TEST_P(OnRealVolumes, ResampledAtRandomPositions)
   const uvol_test::TemporaryFolder folder;
   const std::string samples = folder / "samples.pcd";
   EXPECT_EQ(0, runCommand("uvol_info '" + volume + "'").exit_code);
-  ASSERT_EQ(0,
-            runCommand("uvol_generate '" + volume + "' '" + samples + "' -n 200000")
-                .exit_code);
+  uvol_test::runWell("uvol_generate '" + volume + "' '" + samples + "' -n 200000");
   EXPECT_EQ(0, runCommand("uvol_info '" + samples + "'").exit_code);
   const auto result =
-      runCommand("uvol_isosurface '" + samples + "' '" + (folder / "out.ply") +
-                 "' -iso " + GetParam().second + " -json");
-  ASSERT_EQ(0, result.exit_code) << result.err;
+      uvol_test::runWell("uvol_isosurface '" + samples + "' '" + (folder / "out.ply") +
+                         "' -iso " + GetParam().second + " -json");
   EXPECT_FALSE(reportsNoneAround(result.out)) << result.out;
   EXPECT_FALSE(reportsSpikes(result.out)) << result.out;
   EXPECT_GT(isopointsIn(result.out), 0u);

@@ -35,8 +35,7 @@ TEST_F(Series, EveryFileIsConvertedInOrder)
 {
   write("in_0006x.csv", table);
   write("in_6.csv", table); // another width
-  const auto result = run("'in_{:04d}.csv' 'out {:02d}.vtp'");
-  EXPECT_EQ(0, result.exit_code) << result.err;
+  const auto result = succeeded(run("'in_{:04d}.csv' 'out {:02d}.vtp'"));
   EXPECT_NE(std::string::npos, result.err.find("3 of 3 files are done"));
   const std::string list = readFile(folder_ / "out.pvd");
   const std::size_t first = list.find("timestep=\"2\" file=\"out 02.vtp\""),
@@ -56,12 +55,10 @@ TEST_F(Series, SnapshotsAreChosen)
   EXPECT_TRUE(exists("o_6.ply"));
   EXPECT_FALSE(exists("o_10.ply"));
   for (const char* const wrong :
-       {"1", "5:1", "1:2:0", "1:2:3:4", "a:b", "1:", "0:99999999"}) {
-    const auto result =
-        run(std::string("'in_{:04d}.csv' 'w_{}.ply' -snapshots ") + wrong);
-    EXPECT_EQ(2, result.exit_code) << wrong;
-    EXPECT_NE(std::string::npos, result.err.find("first:last")) << wrong;
-  }
+       {"1", "5:1", "1:2:0", "1:2:3:4", "a:b", "1:", "0:99999999"})
+    expectError(std::string("convert 'in_{:04d}.csv' 'w_{}.ply' -snapshots ") + wrong,
+                "command_line",
+                "first:last");
 }
 
 TEST_F(Series, FailuresEndItUnlessTheyArePassedOver)
@@ -80,20 +77,19 @@ TEST_F(Series, FailuresEndItUnlessTheyArePassedOver)
 
 TEST_F(Series, OptionsNeedASeries)
 {
-  for (const char* const options : {"-keep-going", "-snapshots 1:2"}) {
-    const auto result = run(std::string("in_0002.csv b.ply ") + options);
-    EXPECT_EQ(2, result.exit_code);
-    EXPECT_NE(std::string::npos, result.err.find("snap_{:04d}.h5"));
-  }
-  EXPECT_EQ(2, run("'none_{}.csv' 'b_{}.ply'").exit_code);
+  for (const char* const options : {"-keep-going", "-snapshots 1:2"})
+    expectError(std::string("convert in_0002.csv b.ply ") + options,
+                "command_line",
+                "snap_{:04d}.h5");
+  expectError("convert 'none_{}.csv' 'b_{}.ply'", "command_line", "none_0.csv");
 }
 
 /** The same name for every output would leave the last one only. */
 TEST_F(Series, OutputsHaveDifferentNames)
 {
-  const auto result = run("'in_{:04d}.csv' b.ply");
+  const auto result = run("'in_{:04d}.csv' b.ply -json");
   EXPECT_EQ(2, result.exit_code);
-  EXPECT_NE(std::string::npos, result.err.find("place for a number")) << result.err;
+  EXPECT_TRUE(hasMessage(result, "command_line")) << result.out;
   EXPECT_FALSE(exists("b.ply"));
 }
 
@@ -126,28 +122,24 @@ TEST_F(TimedSeries, TimesOfHeadersStandInNamesAndLists)
 
 TEST_F(TimedSeries, FilesOfTheSameTimeAreNotWrittenOverOneAnother)
 {
-  const auto result = run("'snap_{:03d}' '{t}.csv'");
+  const auto result = run("'snap_{:03d}' '{t}.csv' -json");
   EXPECT_EQ(2, result.exit_code);
-  EXPECT_NE(std::string::npos, result.err.find("'0.5.csv' would be written anew"))
-      << result.err;
+  EXPECT_TRUE(hasMessage(result, "command_line")) << result.out;
+  EXPECT_NE(std::string::npos, result.err.find("'0.5.csv'")) << result.err;
   EXPECT_NE(std::string::npos, result.err.find("2 of 3 files are done"));
 }
 
 TEST_F(TimedSeries, TimesNeedASeries)
 {
-  const auto result = run("snap_000 '{t}.csv'");
-  EXPECT_EQ(2, result.exit_code);
-  EXPECT_NE(std::string::npos, result.err.find("a file of a series")) << result.err;
-  EXPECT_FALSE(exists("{t}.csv"));
+  expectError("convert snap_000 '{t}.csv'", "command_line", "{t}");
 }
 
 TEST_F(TimedSeries, FilesWithoutATimeAreNamed)
 {
-  const auto result = run("'in_{:04d}.csv' '{t}.csv'");
+  const auto result = run("'in_{:04d}.csv' '{t}.csv' -json");
   EXPECT_EQ(1, result.exit_code);
-  EXPECT_NE(std::string::npos,
-            result.err.find("'in_0002.csv': it has no header that names its time"))
-      << result.err;
+  EXPECT_TRUE(hasMessage(result, "no_time")) << result.out;
+  EXPECT_NE(std::string::npos, result.out.find("in_0002.csv")) << result.out;
 }
 
 /** Balls that move and grow, with a field T of other values each time. */
@@ -208,9 +200,8 @@ protected:
 TEST_F(GrowingBalls, PicturesShareCameraAndColours)
 {
   const std::string look = " -color T -size 120x90 -title 'file {}'";
-  const auto drawn = runTool(
-      "isosurface 's_{}.csv' 'o_{}.ply' -field f -iso 0 -png 'p_{}.png'" + look);
-  ASSERT_EQ(0, drawn.exit_code) << drawn.err;
+  succeeded(runTool("isosurface 's_{}.csv' 'o_{}.ply' -field f -iso 0 -png 'p_{}.png'" +
+                    look));
   ASSERT_EQ(0, runTool("render 'o_{}.ply' 'r_{}.png'" + look).exit_code);
   const std::string camera = cameraOf("p_0.png");
   ASSERT_NE("", camera);
@@ -242,8 +233,7 @@ TEST_F(GrowingBalls, RaysShareCameraAndColours)
 {
   const std::string look = " -color T -size 160x130";
   ASSERT_EQ(0, runTool("isosurface 's_{}.csv' 'o_{}.ply' -field f -iso 0").exit_code);
-  const auto traced = runTool("raytrace 'o_{}.ply' 't_{}.png'" + look);
-  ASSERT_EQ(0, traced.exit_code) << traced.err;
+  succeeded(runTool("raytrace 'o_{}.ply' 't_{}.png'" + look));
   // What all files are seen by, as pixels show them.
   ASSERT_EQ(0, runTool("render 'o_{}.ply' 'r_{}.png'" + look).exit_code);
   const std::string camera = cameraOf("r_0.png");
@@ -263,21 +253,18 @@ TEST_F(GrowingBalls, RaysShareCameraAndColours)
 TEST_F(GrowingBalls, PicturesThatShareNothingDoNotWait)
 {
   ASSERT_EQ(0, runTool("isosurface s_0.csv o_0.ply -field f -iso 0").exit_code);
-  const auto result =
-      runCommand("cd '" + (folder_ / "") +
-                 "' && TMPDIR=/nonexistent " PCL_UVOL_TOOL_DIR
-                 "/uvol_render 'o_{}.ply' 'p_{}.png' -color T -size 50 -range 0,9 "
-                 "-eye 9,0,0 -at 0,0,0");
-  EXPECT_EQ(0, result.exit_code) << result.err;
+  runWell("cd '" + (folder_ / "") +
+          "' && TMPDIR=/nonexistent " PCL_UVOL_TOOL_DIR
+          "/uvol_render 'o_{}.ply' 'p_{}.png' -color T -size 50 -range 0,9 "
+          "-eye 9,0,0 -at 0,0,0");
   EXPECT_TRUE(exists("p_0.png"));
 }
 
 TEST_F(GrowingBalls, SurfacesThatAreNotThereLeaveNoPicture)
 {
   write("s_1.csv", "x,y,z,f,T\n0,0,0,1,1\n1,0,0,2,1\n0,1,0,3,1\n0,0,1,4,1\n");
-  const auto result = runTool(
-      "isosurface 's_{}.csv' 'o_{}.ply' -field f -iso 0 -png 'p_{}.png' -size 50");
-  EXPECT_EQ(0, result.exit_code) << result.err;
+  succeeded(runTool(
+      "isosurface 's_{}.csv' 'o_{}.ply' -field f -iso 0 -png 'p_{}.png' -size 50"));
   EXPECT_TRUE(exists("p_0.png") && exists("o_1.ply") && exists("p_2.png"));
   EXPECT_FALSE(exists("p_1.png"));
 }
@@ -285,8 +272,7 @@ TEST_F(GrowingBalls, SurfacesThatAreNotThereLeaveNoPicture)
 TEST_F(GrowingBalls, SlicesShareTheirColours)
 {
   const std::string plane = " -field T -plane z=0 -size 16 -box -1,-1,-1,1,1,1";
-  ASSERT_EQ(0,
-            runTool("probe 's_{}.csv' 'v_{}.vti' -png 'v_{}.png'" + plane).exit_code);
+  succeeded(runTool("probe 's_{}.csv' 'v_{}.vti' -png 'v_{}.png'" + plane));
   int channels = 0;
   const auto first = readPng(folder_ / "v_0.png", channels),
              last = readPng(folder_ / "v_2.png", channels);
@@ -304,8 +290,7 @@ TEST_F(GrowingBalls, SlicesShareTheirColours)
 
 TEST_F(GrowingBalls, MeasuresAreATableOverTime)
 {
-  const auto result = runTool("measure 's_{}.csv' m.csv -field f -iso 0 -png m.png");
-  ASSERT_EQ(0, result.exit_code) << result.err;
+  succeeded(runTool("measure 's_{}.csv' m.csv -field f -iso 0 -png m.png"));
   const auto rows = pcl_uvol::loadDataset(folder_ / "m.csv");
   ASSERT_EQ(std::size_t(count), rows.cloud.width);
   for (int number = 0; number < count; ++number) {
@@ -320,9 +305,10 @@ TEST_F(GrowingBalls, MeasuresAreATableOverTime)
   // A file of its own for each.
   ASSERT_EQ(0, runTool("measure 's_{}.csv' 'm_{}.csv' -field f -iso 0").exit_code);
   EXPECT_TRUE(exists("m_0.csv") && exists("m_2.csv"));
-  const auto refused = runTool("measure 's_{}.csv' -field f -iso 0,0.1 -png c.png");
+  const auto refused =
+      runTool("measure 's_{}.csv' -json -field f -iso 0,0.1 -png c.png");
   EXPECT_EQ(2, refused.exit_code);
-  EXPECT_NE(std::string::npos, refused.err.find("-iso one value")) << refused.err;
+  EXPECT_TRUE(hasMessage(refused, "command_line")) << refused.out;
 }
 
 /** The outputs of a file are its own, whatever becomes of those behind it. */
@@ -344,10 +330,9 @@ TEST_F(GrowingBalls, FoldersThatTakeNoFilesAreOneSentence)
   ASSERT_EQ(0, runTool("isosurface s_0.csv o_0.ply -field f -iso 0").exit_code);
   const auto result = runCommand("cd '" + (folder_ / "") +
                                  "' && TMPDIR=/nonexistent " PCL_UVOL_TOOL_DIR
-                                 "/uvol_render 'o_{}.ply' 'p_{}.png'");
+                                 "/uvol_render 'o_{}.ply' 'p_{}.png' -json");
   EXPECT_EQ(1, result.exit_code);
-  EXPECT_NE(std::string::npos, result.err.find("/nonexistent is not writable"))
-      << result.err;
+  EXPECT_TRUE(hasMessage(result, "scratch_folder_refused")) << result.out;
   EXPECT_FALSE(exists("p_0.png"));
 }
 

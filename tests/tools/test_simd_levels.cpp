@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Every instruction set that this machine has gives the same bytes.
 #include "support/environment.h"
+#include "tools/json_warnings.h"
 
 #include <gtest/gtest.h>
 
@@ -24,10 +25,7 @@ TEST(SimdLevels, SameBytes)
   const uvol_test::TemporaryFolder folder;
   const std::string in = folder / "in.pcd", out = folder / "out.ply",
                     picture = folder / "out.png";
-  ASSERT_EQ(0,
-            uvol_test::runCommand("uvol_generate " + in +
-                                  " -field gyroid -n 50000 -noise 0.01")
-                .exit_code);
+  uvol_test::runWell("uvol_generate " + in + " -field gyroid -n 50000 -noise 0.01");
   const std::string extract =
       "uvol_isosurface " + in + " " + out + " -field gyroid -iso 0.2";
   const std::string baseline = fileOf("baseline", extract, out);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // uvol in front of the tools, completion of their command lines in bash, manual pages.
 #include "support/environment.h"
+#include "tools/json_warnings.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -32,8 +33,7 @@ complete(const std::string& words)
 
 TEST(Uvol, ListsTheToolsWithWhatTheyDo)
 {
-  const auto result = runCommand(tool_folder + "/uvol");
-  EXPECT_EQ(0, result.exit_code);
+  const auto result = uvol_test::runWell(tool_folder + "/uvol");
   for (const auto& entry :
        std::filesystem::directory_iterator(source_folder + "/tools"))
     if (const std::string name = entry.path().stem(); name.rfind("uvol_", 0) == 0) {
@@ -53,7 +53,8 @@ TEST(Uvol, BecomesTheTool)
             runCommand(tool_folder + "/uvol help info").out);
   const auto wrong = runCommand(tool_folder + "/uvol isosurface");
   EXPECT_EQ(2, wrong.exit_code);
-  EXPECT_THAT(wrong.err, HasSubstr("uvol_isosurface: The argument <in> is missing"));
+  EXPECT_THAT(wrong.err,
+              testing::AllOf(HasSubstr("uvol_isosurface: "), HasSubstr("<in>")));
 }
 
 TEST(Uvol, ToolsExplainEveryOptionBelowAHeading)
@@ -94,14 +95,13 @@ TEST(Uvol, RefusesOtherToolsInOneSentence)
 {
   const auto result = runCommand(tool_folder + "/uvol isosurfase");
   EXPECT_EQ(2, result.exit_code);
-  EXPECT_THAT(result.err, HasSubstr("did you mean isosurface?"));
+  EXPECT_THAT(result.err, HasSubstr("isosurface?"));
   EXPECT_EQ(2, runCommand(tool_folder + "/uvol ../bin/uvol_info").exit_code);
 }
 
 TEST(Uvol, ListsFormats)
 {
-  const auto result = runCommand(tool_folder + "/uvol --list-formats");
-  EXPECT_EQ(0, result.exit_code);
+  const auto result = uvol_test::runWell(tool_folder + "/uvol --list-formats");
   for (const char* const ending : {".pcd",
                                    ".csv",
                                    ".vts",
@@ -144,10 +144,9 @@ TEST(Completion, OffersFieldsOfTheFile)
 TEST(Manual, ExplainsEveryOption)
 {
   const TemporaryFolder folder;
-  const auto made =
-      runCommand("python3 " + source_folder + "/tools/manual/make_pages.py man " +
-                 tool_folder + " " + (folder / "man") + " uvol_isosurface uvol_probe");
-  ASSERT_EQ(0, made.exit_code) << made.err;
+  uvol_test::runWell("python3 " + source_folder + "/tools/manual/make_pages.py man " +
+                     tool_folder + " " + (folder / "man") +
+                     " uvol_isosurface uvol_probe");
   std::stringstream page;
   page << std::ifstream(folder / "man/uvol_isosurface.1").rdbuf();
   std::stringstream help(runCommand(tool_folder + "/uvol_isosurface -h all").out);

@@ -54,12 +54,14 @@ TEST_F(ClusterTool, SurfacesAroundHullsAreBeyondTheirPoints)
 
 TEST_F(ClusterTool, TooSmallDistancesAreReported)
 {
-  const auto result = run(attributes_ + "-cluster 1 -surface distance -distance 0.05 "
-                                        "-grid 300");
-  EXPECT_EQ(0, result.exit_code) << result.err;
-  EXPECT_NE(std::string::npos, result.err.find("Warning")) << result.err;
+  const auto result =
+      succeeded(run(attributes_ + "-cluster 1 -surface distance -distance 0.05 "
+                                  "-grid 300 -json"));
+  EXPECT_TRUE(hasMessage(result, "short_distance")) << result.out;
   std::remove(out_.c_str());
-  expectFailure(attributes_ + "-cluster 1 -surface distance -distance 1e-9", 1, "grid");
+  expectError(attributes_ + "-cluster 1 -surface distance -distance 1e-9",
+              "small_cluster_distance",
+              "1e-09");
 }
 
 TEST_F(ClusterTool, DistancesMayBeStretched)
@@ -87,13 +89,12 @@ TEST_F(ClusterTool, MembershipPartsSamplesOfTheClusterFromOthers)
 TEST_F(ClusterTool, BordersThatRunThroughGapsAreReported)
 {
   for (const char* smoothing : {"", "-smoothing-length h"}) {
-    const std::string told =
-        run(attributes_ + "-cluster 1 -surface membership " + smoothing).err;
-    EXPECT_NE(std::string::npos, told.find("The cluster border is not constrained"))
-        << told;
-    EXPECT_EQ(std::string::npos, told.find("lines of samples")) << told;
+    const auto result =
+        run(attributes_ + "-cluster 1 -surface membership -json " + smoothing);
+    EXPECT_TRUE(hasMessage(result, "unconstrained_border")) << result.out;
+    EXPECT_FALSE(hasMessage(result, "unconstrained_isopoints")) << result.out;
     for (const char* option : {"-validate", "-fill-gaps", "-drop-bridged"})
-      EXPECT_EQ(std::string::npos, told.find(option)) << told;
+      EXPECT_EQ(std::string::npos, result.out.find(option)) << result.out;
   }
 }
 
@@ -158,9 +159,9 @@ TEST_F(ClusterTool, TinyClustersGetASurfaceOrAClearAnswer)
                        "x,y,z,label\n0,0,0,0\n1,0,0,1\n1,1,0,1\n0,0,1,2\n3,3,3,2\n"
                        "5,0,0,2\n0,5,0,2\n2,6,5,2\n1,1,1,2\n2,0,0,2\n");
   // One point.
-  expectFailure("-cluster 0 -surface distance", 1, "distance");
-  expectFailure("-cluster 0 -surface hull", 1, "cluster");
-  expectFailure("-cluster 0 -surface hull-distance", 1, "cluster");
+  expectError("-cluster 0 -surface distance", "cluster_at_one_place");
+  expectError("-cluster 0 -surface hull", "few_points_for_hull");
+  expectError("-cluster 0 -surface hull-distance", "few_points_for_hull");
   for (const char* surface : {"hull", "hull-distance"}) {
     const std::string option = std::string(" -surface ") + surface;
     expectError("-cluster 0 -distance 0.5" + option, "few_points_for_hull");

@@ -43,15 +43,6 @@ protected:
     return runCommand("uvol_compare " + arguments);
   }
 
-  void
-  expectFailure(const std::string& arguments, int exit_code, const std::string& word)
-  {
-    const CommandResult result = run(arguments);
-    EXPECT_EQ(exit_code, result.exit_code) << result.err;
-    EXPECT_NE(std::string::npos, result.err.find(word)) << result.err;
-    EXPECT_EQ(1, std::count(result.err.begin(), result.err.end(), '\n')) << result.err;
-  }
-
   uvol_test::TemporaryFolder folder_;
   const std::string low_ = folder_ / "low.ply", high_ = folder_ / "high.ply",
                     out_ = folder_ / "out.ply";
@@ -59,9 +50,7 @@ protected:
 
 TEST_F(CompareTool, PrintsDistancesInBothDirections)
 {
-  const CommandResult result = run(low_ + " " + high_ + " -json");
-  ASSERT_EQ(0, result.exit_code) << result.err;
-  const Json report = Json::parse(result.out);
+  const Json report = uvol_test::jsonOf(run(low_ + " " + high_ + " -json"));
   for (const char* const way : {"a_to_b", "b_to_a"}) {
     for (const char* const name :
          {"mean", "root_mean_square", "percentile_99_9", "largest"})
@@ -89,8 +78,8 @@ TEST_F(CompareTool, WarnsWhereThereAreOnlyPoints)
 {
   const std::string points = folder_ / "points.csv";
   uvol_test::writeFile(points, "x,y,z\n0,0,1\n0.25,0.25,3\n");
-  const CommandResult result = run(points + " " + low_ + " " + (folder_ / "out.csv"));
-  EXPECT_EQ(0, result.exit_code);
+  const CommandResult result =
+      uvol_test::succeeded(run(points + " " + low_ + " " + (folder_ / "out.csv")));
   EXPECT_NE(std::string::npos, result.out.find("a to b: mean 2,")) << result.out;
   EXPECT_TRUE(uvol_test::hasMessage(
       run(points + " " + low_ + " " + (folder_ / "out.csv") + " -json"),
@@ -101,13 +90,18 @@ TEST_F(CompareTool, WarnsWhereThereAreOnlyPoints)
 
 TEST_F(CompareTool, Refuses)
 {
-  expectFailure(low_, 2, "<b>");
-  expectFailure(low_ + " " + (folder_ / "none.ply"), 1, "none.ply");
-  expectFailure(low_ + " " + high_ + " " + low_, 2, "low.ply");
-  expectFailure(low_ + " " + high_ + " " + (folder_ / "out.csv"), 1, "meshes");
+  const auto refuses =
+      [&](const std::string& arguments, const char* code, const char* value) {
+        uvol_test::expectError(run(arguments + " -json"), code, value);
+      };
+  refuses(low_, "command_line", "<b>");
+  refuses(low_ + " " + (folder_ / "none.ply"), "no_such_file", "none.ply");
+  refuses(low_ + " " + high_ + " " + low_, "command_line", "low.ply");
+  refuses(
+      low_ + " " + high_ + " " + (folder_ / "out.csv"), "unwritten_ending", "meshes");
   const std::string cut = folder_ / "cut.ply";
   uvol_test::writeFile(cut, makePly(0.0, 0.0).substr(0, 150));
-  expectFailure(low_ + " " + cut, 1, "cut.ply");
+  refuses(low_ + " " + cut, "missing_part", "cut.ply");
 }
 
 /** As many as a stranger's file may have: each is not looked for among all. */
@@ -120,9 +114,8 @@ TEST_F(CompareTool, AThousandOfVeryManyFieldsAreListed)
   }
   const std::string path = folder_ / "many.csv";
   uvol_test::writeFile(path, names + "\n0,0,0" + row + "\n1,0,0" + row + '\n');
-  const auto result = runCommand("uvol_compare " + path + ' ' + path + " -json");
-  ASSERT_EQ(0, result.exit_code) << result.err;
-  const Json report = Json::parse(result.out);
+  const Json report =
+      uvol_test::jsonOf(runCommand("uvol_compare " + path + ' ' + path + " -json"));
   EXPECT_EQ(1000u, report.at("fields_a_to_b").size());
   const Json told = uvol_test::warnedValues(report, "many_common_fields");
   ASSERT_TRUE(told.is_object());

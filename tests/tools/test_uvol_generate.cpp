@@ -3,6 +3,7 @@
 #include "common/scalar_field.h"
 #include "generation/analytic_fields.h"
 #include "support/environment.h"
+#include "tools/json_warnings.h"
 #include <pcl_uvol/io/dataset.h>
 
 #include <gtest/gtest.h>
@@ -40,9 +41,9 @@ TEST(UvolGenerate, ValuesAreThoseOfTheFieldAtTheWrittenPlace)
     for (const char* samples : {"uniform", "jittered", "lattice", "clustered"}) {
       SCOPED_TRACE(field.name + std::string(" ") + samples);
       const std::string file = folder / "out.pcd";
-      const auto result = runCommand("uvol_generate '" + file + "' -n 1000 -field " +
-                                     field.name + " -samples " + samples);
-      ASSERT_EQ(0, result.exit_code) << result.err;
+      const auto result =
+          uvol_test::runWell("uvol_generate '" + file + "' -n 1000 -field " +
+                             field.name + " -samples " + samples);
       EXPECT_EQ("", result.err);
       const auto columns = findColumns(file, {"x", "y", "z", field.name});
       ASSERT_EQ(1000u, columns[3].size());
@@ -60,9 +61,8 @@ TEST(UvolGenerate, LinesAreDenserAlongThanAcross)
   for (const std::string samples : {"tracks", "casts", "holes"}) {
     SCOPED_TRACE(samples);
     const std::string file = folder / "out.csv";
-    const auto result = runCommand("uvol_generate '" + file +
-                                   "' -n 20000 -field gyroid -samples " + samples);
-    ASSERT_EQ(0, result.exit_code) << result.err;
+    const auto result = uvol_test::runWell(
+        "uvol_generate '" + file + "' -n 20000 -field gyroid -samples " + samples);
     EXPECT_EQ("", result.err);
     const std::string line = samples.substr(0, samples.size() - 1);
     const auto columns = findColumns(file, {"x", "y", "z", "gyroid", line});
@@ -97,15 +97,11 @@ TEST(UvolGenerate, HeldOutLinesArePredictedBetterThanByTheNearestSample)
   const TemporaryFolder folder;
   const std::string file = folder / "lines.csv";
   for (const std::string line : {"track", "cast"}) {
-    ASSERT_EQ(0,
-              runCommand("uvol_generate '" + file +
-                         "' -n 8000 -field gyroid -samples " + line + "s")
-                  .exit_code);
-    const auto result =
-        runCommand("uvol_isosurface '" + file + "' '" + (folder / "out.ply") +
-                   "' -field gyroid -iso 0 -json -validate 5 -validate-by " + line);
-    ASSERT_EQ(0, result.exit_code) << result.err;
-    const auto scores = nlohmann::json::parse(result.out)["validation"];
+    uvol_test::runWell("uvol_generate '" + file + "' -n 8000 -field gyroid -samples " +
+                       line + "s");
+    const auto scores = uvol_test::jsonOf(runCommand(
+        "uvol_isosurface '" + file + "' '" + (folder / "out.ply") +
+        "' -field gyroid -iso 0 -json -validate 5 -validate-by " + line))["validation"];
     const auto score = [&](const char* name) { return scores[name].get<double>(); };
     // 0.79 and 0.81 on the right side, the nearest sample 0.72 and 0.76.
     EXPECT_GT(score("near"), 0.95 * 8000) << line;
@@ -129,10 +125,8 @@ TEST(UvolGenerate, NoiseHasTheGivenStandardDeviation)
 {
   const TemporaryFolder folder;
   const std::string file = folder / "out.pcd";
-  ASSERT_EQ(0,
-            runCommand("uvol_generate '" + file +
-                       "' -n 40000 -field sphere -noise 0.25 -seed 3")
-                .exit_code);
+  uvol_test::runWell("uvol_generate '" + file +
+                     "' -n 40000 -field sphere -noise 0.25 -seed 3");
   const auto columns = findColumns(file, {"x", "y", "z", "sphere"});
   double sum = 0.0, sum_sq = 0.0;
   for (std::size_t i = 0; i < 40000; ++i) {
@@ -172,9 +166,7 @@ TEST(UvolGenerate, ResamplesEveryRealVolume)
       continue;
     SCOPED_TRACE(path);
     ++volumes;
-    const auto result =
-        runCommand("uvol_generate '" + path + "' '" + file + "' -n 200000");
-    ASSERT_EQ(0, result.exit_code) << result.err;
+    uvol_test::runWell("uvol_generate '" + path + "' '" + file + "' -n 200000");
     const auto volume = pcl_uvol::loadVolume(path);
     const auto columns = findColumns(file, {"x", "y", "z", volume.name});
     ASSERT_EQ(200000u, columns[3].size());

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // uvol_info from the outside: what it tells of clouds and volumes, and what it refuses.
 #include "support/environment.h"
+#include "tools/json_warnings.h"
+#include "tools/sentences.h"
 
 #include <gtest/gtest.h>
 
@@ -84,9 +86,12 @@ TEST_F(UvolInfo, SelectsRowsFieldsAndColumns)
 
 TEST_F(UvolInfo, DegenerateCloudsAreReported)
 {
-  expectPrinted(runOn("x,y,z,f\n"), {"has no points"});
+  const auto expectWarning = [&](const std::string& content, const char* code) {
+    EXPECT_TRUE(uvol_test::hasMessage(runOn(content, "-json"), code)) << content;
+  };
+  expectWarning("x,y,z,f\n", "no_points_in_file");
   expectPrinted(runOn("x,y,z,f\n1,2,3,4\n"), {"lower corner: 1 2 3"});
-  expectPrinted(runOn("x,y,z,f\nnan,0,0,4\n0,nan,0,5\n"), {"no point with finite"});
+  expectWarning("x,y,z,f\nnan,0,0,4\n0,nan,0,5\n", "no_finite_points");
   expectPrinted(runOn("x,y,z,f\n0,0,0,\n1,0,0,\n"), {"no finite value"});
   expectPrinted(runOn("x,y,z\n0,0,0\n0,0,0\n"), {"duplicates"});
 }
@@ -123,16 +128,15 @@ TEST_F(UvolInfo, CountsPointsWhosePositionIsTheLargestFloat)
 {
   for (const char* const place : {"3.4028235e38", "-3.4028235e+38", "1e300"}) {
     const auto result =
-        runOn("x,y,z,a\n0,0,0,1\n1,0,0,1\n0,1,0,1\n" + std::string(place) + ",0,0,1\n");
-    expectPrinted(result, {"upper corner: 1 1 0", "non finite 1"});
-    expectPrinted(
-        result,
-        {"1 point has a coordinate of 3.4e38 or more, too large for float. It counts "
-         "as missing."});
+        runOn("x,y,z,a\n0,0,0,1\n1,0,0,1\n0,1,0,1\n" + std::string(place) + ",0,0,1\n",
+              "-json");
+    const auto report = nlohmann::json::parse(result.out);
+    EXPECT_EQ((std::vector<double>{1.0, 1.0, 0.0}), report.at("upper_corner"));
+    EXPECT_EQ(1, report.at("counts").at("non_finite"));
+    EXPECT_EQ(1, uvol_test::warnedValues(report, "points_beyond_float").at("points"));
   }
-  const auto refused = runOn("x,y,z,a\n1e39,0,0,1\n2e39,0,0,1\n");
-  EXPECT_EQ(1, refused.exit_code);
-  EXPECT_NE(std::string::npos, refused.err.find("larger than float can hold"));
+  uvol_test::expectError(runOn("x,y,z,a\n1e39,0,0,1\n2e39,0,0,1\n", "-json"),
+                         "coordinates_beyond_float");
 }
 
 TEST_F(UvolInfo, JsonIsOneObject)
@@ -157,8 +161,7 @@ TEST_F(UvolInfo, PrintsSeveralFilesBelowTheirNames)
   uvol_test::writeFile(b, "x,y,z,t\n0,0,0,7\n1,0,0,8\n");
   const auto alone = runCommand("uvol_info '" + a + "'");
   const auto other = runCommand("uvol_info '" + b + "'");
-  const auto both = runCommand("uvol_info '" + a + "' '" + b + "'");
-  EXPECT_EQ(0, both.exit_code) << both.err;
+  const auto both = uvol_test::runWell("uvol_info '" + a + "' '" + b + "'");
   EXPECT_EQ(0u, both.out.find("file: " + a));
   EXPECT_EQ(alone.out + "\n" + other.out, both.out);
 }
@@ -196,10 +199,10 @@ TEST_F(UvolInfo, WritesTheSamplingOfOneFileOnly)
 {
   const std::string file = folder_ / "a.csv", out = folder_ / "out.csv";
   uvol_test::writeFile(file, cloud);
-  const auto result =
-      runCommand("uvol_info '" + file + "' '" + file + "' -out '" + out + "'");
-  EXPECT_EQ(2, result.exit_code);
-  EXPECT_NE(std::string::npos, result.err.find("-out is for one file")) << result.err;
+  uvol_test::expectError(
+      runCommand("uvol_info '" + file + "' '" + file + "' -json -out '" + out + "'"),
+      "command_line",
+      "-out");
 }
 
 TEST_F(UvolInfo, NamesNeedNotBeUtf8)
@@ -222,23 +225,15 @@ TEST_F(UvolInfo, NamesMayDifferInABlank)
 
 TEST_F(UvolInfo, RefusesWhatIsWrong)
 {
-  const std::tuple<const char*, int, const char*> cases[] = {
-      {"-field mass", 1, "rho"},
-      {"-where 'mass>1'", 1, "mass"},
-      {"-where 'rho>>1'", 1, "rho>>1"},
-      {"-xyz 0,1", 2, "-xyz"},
-      {"-xyz 0,1,1.5", 1, "column"},
-      {"-xyz 0,1,9", 1, "column"},
-      {"-bins 3", 2, "-bins"}};
-  for (const auto& [options, exit_code, text] : cases) {
-    const auto result = runOn(cloud, options);
-    EXPECT_EQ(exit_code, result.exit_code) << options;
-    EXPECT_NE(std::string::npos, result.err.find(text)) << result.err;
-    // The place of what is wrong in an expression is shown.
-    const int lines = std::string(options).find("-where") == 0 ? 3 : 1;
-    EXPECT_EQ(lines, std::count(result.err.begin(), result.err.end(), '\n'))
-        << result.err;
-  }
+  for (const auto& [options, code, value] :
+       {std::tuple("-field mass", "unknown_lone_field", "rho"),
+        std::tuple("-where 'mass>1'", "unknown_operand", "mass"),
+        std::tuple("-where 'rho>>1'", "operand_missing", "rho>>1"),
+        std::tuple("-xyz 0,1", "command_line", "-xyz"),
+        std::tuple("-xyz 0,1,1.5", "no_coordinate_column", "1.5"),
+        std::tuple("-xyz 0,1,9", "no_coordinate_column", "9"),
+        std::tuple("-bins 3", "command_line", "-bins")})
+    uvol_test::expectError(runOn(cloud, std::string(options) + " -json"), code, value);
   EXPECT_EQ(2, runCommand("uvol_info").exit_code);
   EXPECT_EQ(1, runCommand("uvol_info none.nhdr").exit_code);
   EXPECT_EQ(1, runCommand("uvol_info none.vtk").exit_code);

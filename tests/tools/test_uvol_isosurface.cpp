@@ -5,6 +5,7 @@
 #include "support/clouds.h"
 #include "support/environment.h"
 #include "tools/json_warnings.h"
+#include "tools/tool_test.h"
 #include <pcl_uvol/io/dataset.h>
 
 #include <Eigen/Core>
@@ -13,15 +14,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <tuple>
+#include <utility>
 
 namespace test_uvol_isosurface {
 
-using uvol_test::CommandResult;
 using uvol_test::runCommand;
-using uvol_test::TemporaryFolder;
 
 /** A CSV of a radial field of uniform points, shifted, with a vector and a label. */
 std::string
@@ -87,46 +89,32 @@ pointsIn(const std::string& path)
   return pcl_uvol::loadDataset(path).cloud.width;
 }
 
-/** Failed as it should: that exit code, one sentence with that text, no file left. */
-void
-expectFailure(const CommandResult& result,
-              int exit_code,
-              const std::string& text,
-              const TemporaryFolder& folder,
-              std::size_t files)
-{
-  EXPECT_EQ(exit_code, result.exit_code) << result.err;
-  EXPECT_NE(std::string::npos, result.err.find(text)) << result.err;
-  // The place of what is wrong in an expression is shown.
-  const bool is_marked = result.err.find("\n  ") != std::string::npos;
-  EXPECT_LE(std::count(result.err.begin(), result.err.end(), '\n'), is_marked ? 3 : 2)
-      << result.err;
-  EXPECT_EQ(files, folder.list().size());
-}
-
-class Isosurface : public testing::Test {
+class Isosurface : public uvol_test::ToolTest {
 protected:
   Isosurface()
+      : ToolTest("uvol_isosurface", "out.ply")
   {
     uvol_test::writeFile(in_, radialCsv(4000));
   }
 
-  CommandResult
-  run(const std::string& arguments) const
+  /** With the isovalue 15 of the field density. */
+  void
+  extract(const std::string& input,
+          const std::string& output,
+          const std::string& options = "") const
   {
-    return runCommand("uvol_isosurface " + arguments);
+    const auto result = runCommand("uvol_isosurface " + input + " " + output +
+                                   " -field density -iso 15" + options);
+    ASSERT_EQ(0, result.exit_code) << output << options << result.err;
   }
 
-  TemporaryFolder folder_;
-  std::string in_ = folder_ / "in.csv";
-  std::string out_ = folder_ / "out.ply";
+  const std::string job_ = "-field density -iso 15 ";
 };
 
 TEST_F(Isosurface, WritesOrientedPointsWithEveryField)
 {
   const auto result =
-      run(in_ + " " + out_ + " -field density -iso 14,16 -interpolation linear -v");
-  ASSERT_EQ(0, result.exit_code) << result.err;
+      uvol_test::succeeded(run("-field density -iso 14,16 -interpolation linear -v"));
   for (const char* word :
        {"read", "tree", "neighborhoods", "write", "total", "isopoints"})
     EXPECT_NE(std::string::npos, result.out.find(word)) << word;
@@ -165,10 +153,8 @@ TEST_F(Isosurface, FiltersByErrorAndSupport)
   uvol_test::writeFile(in_, editedCsv([](double x, double y, double z) {
                          return std::hypot(x - 13.0, y - 8.0, z - 8.0) < 2.5 ? "" : "0";
                        }));
-  const std::string base = in_ + " " + out_ + " -field density -iso 15 ";
-  const auto all = run(base);
-  ASSERT_EQ(0, all.exit_code) << all.err;
-  EXPECT_NE(std::string::npos, all.out.find("estimated error: median")) << all.out;
+  const auto all = uvol_test::succeeded(run(job_ + "-json"));
+  const double median = nlohmann::json::parse(all.out)["estimated_error"]["median"];
   const std::size_t count = pointsIn(out_);
   const pcl_uvol::Dataset surface = pcl_uvol::loadDataset(out_);
   const pcl_uvol::ScalarField error(surface.cloud.fields, "error");
@@ -182,15 +168,16 @@ TEST_F(Isosurface, FiltersByErrorAndSupport)
     EXPECT_GE(support.read(point), 1.0);
   }
   std::sort(errors.begin(), errors.end());
+  EXPECT_NEAR(median, errors[count / 2], 0.1 * median);
   std::ostringstream middle;
   middle.precision(17);
   middle << errors[count / 2];
-  ASSERT_EQ(0, run(base + "-max-error " + middle.str()).exit_code);
+  ASSERT_EQ(0, run(job_ + "-max-error " + middle.str()).exit_code);
   EXPECT_EQ(static_cast<std::size_t>(
                 std::upper_bound(errors.begin(), errors.end(), errors[count / 2]) -
                 errors.begin()),
             pointsIn(out_));
-  ASSERT_EQ(0, run(base + "-drop-bridged").exit_code);
+  ASSERT_EQ(0, run(job_ + "-drop-bridged").exit_code);
   EXPECT_EQ(count - bridged, pointsIn(out_));
   EXPECT_GT(bridged, 0u);
 
@@ -200,28 +187,26 @@ TEST_F(Isosurface, FiltersByErrorAndSupport)
                             "-interpolation linear -drop-bridged",
                             "-normals edge",
                             "-validate 3 -validate-by blocks"})
-    EXPECT_EQ(0, run(base + right).exit_code) << right;
+    EXPECT_EQ(0, run(job_ + right).exit_code) << right;
   for (const char* wrong : {"-interpolation linear -normals fit",
                             "-validate 1",
                             "-validate-by blocks",
                             "-interpolation cubic",
                             "-max-error automatic",
                             "-max-error -1"})
-    EXPECT_EQ(2, run(base + wrong).exit_code) << wrong;
+    EXPECT_EQ(2, run(job_ + wrong).exit_code) << wrong;
 }
 
 TEST_F(Isosurface, SaysWhichFieldOfTheSamplesIsLeftOut)
 {
-  EXPECT_EQ(std::string::npos,
-            run(in_ + " " + out_ + " -field density -iso 15").err.find("not copied"));
+  EXPECT_FALSE(uvol_test::hasMessage(run(job_ + "-json"), "replaced_field"));
   std::string csv = radialCsv(2000);
   csv.replace(csv.find("experiment"), 10, "error");
   uvol_test::writeFile(in_, csv);
-  const auto result = run(in_ + " " + out_ + " -field density -iso 15");
-  EXPECT_EQ(0, result.exit_code);
-  EXPECT_NE(std::string::npos,
-            result.err.find("field 'error' of the samples is not copied"))
-      << result.err;
+  const auto result = uvol_test::succeeded(run(job_ + "-json"));
+  EXPECT_EQ("error",
+            uvol_test::warnedValues(nlohmann::json::parse(result.out), "replaced_field")
+                .at("field"));
 }
 
 TEST_F(Isosurface, LabelsGetNormalsFromTheirNeighbors)
@@ -230,8 +215,7 @@ TEST_F(Isosurface, LabelsGetNormalsFromTheirNeighbors)
   uvol_test::writeFile(in_, editedCsv([](double x, double y, double z) {
                          return std::hypot(x - 8.0, y - 8.0, z - 8.0) < 5.0 ? "1" : "0";
                        }));
-  const auto result = run(in_ + " " + out_ + " -field label -iso 0.5");
-  ASSERT_EQ(0, result.exit_code) << result.err;
+  uvol_test::succeeded(run("-field label -iso 0.5"));
   const pcl_uvol::Dataset surface = pcl_uvol::loadDataset(out_);
   double mean_cosine = 0.0;
   for (std::size_t i = 0; i < surface.cloud.width; ++i) {
@@ -251,14 +235,13 @@ TEST_F(Isosurface, LabelsGetNormalsFromTheirNeighbors)
 
 TEST_F(Isosurface, SameBytesForAnyNumberOfThreadsAndEveryRun)
 {
-  for (const char* ending : {"ply", "pcd", "csv", "vtp"}) {
-    const std::string a = folder_ / ("a." + std::string(ending));
-    const std::string b = folder_ / ("b." + std::string(ending));
-    ASSERT_EQ(0, run(in_ + " " + a + " -field density -iso 15 -threads 1").exit_code);
-    ASSERT_EQ(0, run(in_ + " " + b + " -field density -iso 15 -threads 2").exit_code);
-    EXPECT_EQ(uvol_test::readFile(a), uvol_test::readFile(b)) << ending;
-    ASSERT_EQ(0, run(in_ + " " + b + " -field density -iso 15").exit_code);
-    EXPECT_EQ(uvol_test::readFile(a), uvol_test::readFile(b)) << ending;
+  for (const std::string ending : {"ply", "pcd", "csv", "vtp"}) {
+    const std::string a = folder_ / ("a." + ending), b = folder_ / ("b." + ending);
+    extract(in_, a, " -threads 1");
+    for (const char* const threads : {" -threads 2", ""}) {
+      extract(in_, b, threads);
+      EXPECT_EQ(uvol_test::readFile(a), uvol_test::readFile(b)) << ending;
+    }
   }
 }
 
@@ -267,17 +250,11 @@ TEST_F(Isosurface, ShiftedCloudsGiveShiftedIsopoints)
   const double shift[3] = {500000.0, 5500000.0, 100.0};
   const std::string shifted = folder_ / "shifted.csv";
   uvol_test::writeFile(shifted, radialCsv(4000, shift[0], shift[1], shift[2]));
-  for (const char* ending : {"ply", "pcd", "csv", "vtp"})
+  for (const std::string ending : {"ply", "pcd", "csv", "vtp"})
     for (const char* ascii : {"", " -ascii"}) {
-      const std::string a = folder_ / ("a." + std::string(ending));
-      const std::string b = folder_ / ("b." + std::string(ending));
-      const auto extract = [&](const std::string& from, const std::string& to) {
-        std::ostringstream command;
-        command << from << ' ' << to << " -field density -iso 15" << ascii;
-        return run(command.str()).exit_code;
-      };
-      ASSERT_EQ(0, extract(in_, a));
-      ASSERT_EQ(0, extract(shifted, b));
+      const std::string a = folder_ / ("a." + ending), b = folder_ / ("b." + ending);
+      extract(in_, a, ascii);
+      extract(shifted, b, ascii);
       const auto expected = readCoordinates(a), found = readCoordinates(b);
       ASSERT_EQ(expected.size(), found.size()) << ending << ascii;
       for (std::size_t i = 0; i < found.size(); ++i)
@@ -288,32 +265,26 @@ TEST_F(Isosurface, ShiftedCloudsGiveShiftedIsopoints)
 TEST_F(Isosurface, SelectsRowsFieldsAndScales)
 {
   const std::string half = folder_ / "half.csv";
-  ASSERT_EQ(0,
-            run(in_ + " " + half + " -field density -iso 15 -where \"experiment=1\"")
-                .exit_code);
+  extract(in_, half, " -where \"experiment=1\"");
   EXPECT_LT(pointsIn(half), 4000u);
-  EXPECT_EQ(0, run(in_ + " " + out_ + " -field '|vel|' -iso 10").exit_code);
-  EXPECT_EQ(0, run(in_ + " " + out_ + " -field 'vel[1]' -iso 10").exit_code);
-  EXPECT_EQ(
-      0,
-      run(in_ + " " + out_ + " -field '|vel_0,vel_1|' -iso 10 -scale auto").exit_code);
-  EXPECT_EQ(0,
-            run(in_ + " " + out_ + " -field density -iso 15 -scale 1,1,9").exit_code);
-  EXPECT_EQ(0, run(in_ + " " + out_ + " -field x -iso 5 -xyz 4,5,6").exit_code);
-  const auto json = run(in_ + " " + out_ + " -field density -iso 15 -json");
-  EXPECT_EQ(0, json.exit_code);
+  for (const char* const options : {"-field '|vel|' -iso 10",
+                                    "-field 'vel[1]' -iso 10",
+                                    "-field '|vel_0,vel_1|' -iso 10 -scale auto",
+                                    "-field density -iso 15 -scale 1,1,9",
+                                    "-field x -iso 5 -xyz 4,5,6"})
+    expectSuccess(options);
+  const auto json = uvol_test::succeeded(run(job_ + "-json"));
   EXPECT_EQ('{', json.out.front());
 }
 
 TEST_F(Isosurface, ReportsAreShortForPeopleAndNumbersForPrograms)
 {
-  const std::string all = in_ + " " + out_ + " -field density -iso 14,16";
+  const std::string all = "-field density -iso 14,16";
   const auto first = nlohmann::json::parse(run(all + " -json").out);
   const double median = first["estimated_error"]["median"];
   EXPECT_GT(median, 0.0);
   const std::string options = all + " -max-error " + std::to_string(median);
-  const auto told = run(options);
-  ASSERT_EQ(0, told.exit_code) << told.err;
+  const auto told = uvol_test::succeeded(run(options));
   EXPECT_LT(std::count(told.out.begin(), told.out.end(), '\n'), 12) << told.out;
   EXPECT_EQ(std::string::npos, told.out.find(" ms")) << told.out;
   EXPECT_EQ(std::string::npos, told.out.find(" 0,")) << told.out; // nothing to tell
@@ -332,39 +303,38 @@ TEST_F(Isosurface, ReportsAreShortForPeopleAndNumbersForPrograms)
   EXPECT_GT(each[1], 0u);
   for (const auto& count : report["counts"].items())
     EXPECT_FALSE(report["milliseconds"].contains(count.key())) << count.key();
-  const auto empty = nlohmann::json::parse(
-      run(in_ + " " + out_ + " -field density -iso 1e9 -json").out + "");
+  const auto empty = nlohmann::json::parse(run("-field density -iso 1e9 -json").out);
   EXPECT_TRUE(empty["estimated_error"].is_null());
 }
 
 TEST_F(Isosurface, AnIsovalueOutsideTheRangeGivesAnEmptyFileAndAWarning)
 {
-  for (const char* ending : {"ply", "pcd", "csv", "vtp"}) {
-    const std::string empty = folder_ / ("empty." + std::string(ending));
-    const auto result = run(in_ + " " + empty + " -field density -iso -3 -json");
-    EXPECT_EQ(0, result.exit_code);
+  for (const char* name : {"out.ply", "out.pcd", "out.csv", "out.vtp"}) {
+    out_ = folder_ / name;
+    const auto result = uvol_test::succeeded(run("-field density -iso -3 -json"));
     EXPECT_TRUE(uvol_test::hasMessage(result, "no_isopoints")) << result.out;
-    EXPECT_EQ(0u, pointsIn(empty)) << ending;
+    EXPECT_EQ(0u, pointsIn(out_)) << name;
   }
 }
 
 TEST_F(Isosurface, RefusesWrongCommandLines)
 {
-  const std::string job = in_ + " " + out_ + " -field density ";
-  expectFailure(run(""), 2, "", folder_, 1);
-  expectFailure(run(in_), 2, "", folder_, 1);
-  expectFailure(run(job), 2, "-iso", folder_, 1);
-  expectFailure(run(job + "-iso"), 2, "-iso", folder_, 1);
-  expectFailure(run(job + "-iso abc"), 2, "abc", folder_, 1);
-  expectFailure(run(job + "-iso 1.5m"), 2, "1.5m", folder_, 1);
-  expectFailure(run(job + "-iso nan"), 2, "nan", folder_, 1);
-  expectFailure(run(job + "-iso 1,,2"), 2, "-iso", folder_, 1);
-  expectFailure(run(job + "-iso 15 -bogus"), 2, "-bogus", folder_, 1);
-  expectFailure(run(job + "-iso 15 leftover"), 2, "leftover", folder_, 1);
-  expectFailure(run(job + "-iso 15 -threads -1"), 2, "-threads", folder_, 1);
-  expectFailure(run(job + "-iso 15 -scale 1,2"), 2, "-scale", folder_, 1);
-  expectFailure(run(job + "-iso 15 -scale 1,2,x"), 2, "-scale", folder_, 1);
-  expectFailure(run(job + "-iso 15 -criterion some"), 2, "some", folder_, 1);
+  for (const auto& [options, value] : {std::pair("", "-iso"),
+                                       std::pair("-iso", "-iso"),
+                                       std::pair("-iso abc", "abc"),
+                                       std::pair("-iso 1.5m", "1.5m"),
+                                       std::pair("-iso nan", "nan"),
+                                       std::pair("-iso 1,,2", "-iso"),
+                                       std::pair("-iso 15 -bogus", "-bogus"),
+                                       std::pair("-iso 15 leftover", "leftover"),
+                                       std::pair("-iso 15 -threads -1", "-threads"),
+                                       std::pair("-iso 15 -scale 1,2", "-scale"),
+                                       std::pair("-iso 15 -scale 1,2,x", "-scale"),
+                                       std::pair("-iso 15 -criterion some", "some")})
+    expectError(std::string("-field density ") + options, "command_line", value);
+  uvol_test::expectError(runCommand("uvol_isosurface -json"), "command_line", "<in>");
+  uvol_test::expectError(
+      runCommand("uvol_isosurface -json " + in_), "command_line", "<out>");
   EXPECT_EQ(0, run("-h").exit_code);
   EXPECT_NE(std::string::npos, run("-h").out.find("-iso"));
   EXPECT_EQ(0, run("-version").exit_code);
@@ -372,82 +342,81 @@ TEST_F(Isosurface, RefusesWrongCommandLines)
 
 TEST_F(Isosurface, RefusesBadFilesInOneSentence)
 {
-  const std::string job = " " + out_ + " -field density -iso 15";
-  expectFailure(run((folder_ / "none.pcd") + job), 1, "none.pcd", folder_, 1);
-  expectFailure(run((folder_ / "") + job), 1, "", folder_, 1);
-  expectFailure(
-      run(in_ + " " + out_ + " -field mass -iso 15"), 1, "density", folder_, 1);
-  expectFailure(run(in_ + " " + out_ + " -iso 15"), 1, "density", folder_, 1);
-  expectFailure(
-      run(in_ + " " + (folder_ / "in.csv/out.ply") + " -field density -iso 15"),
-      1,
-      "in.csv",
-      folder_,
-      1);
-  expectFailure(run(in_ + " " + (folder_ / "out.xyz9") + " -field density -iso 15"),
-                1,
-                "out.xyz9",
-                folder_,
-                1);
-  expectFailure(run(in_ + job + " -where \"mass>1\""), 1, "mass", folder_, 1);
-  expectFailure(run(in_ + job + " -where \"density>>1\""), 1, "density>>1", folder_, 1);
-  expectFailure(run(in_ + job + " -where \"density>1e9\""), 1, "no points", folder_, 1);
+  expectError("-field mass -iso 15", "unknown_lone_field", "density");
+  expectError("-iso 15", "several_scalar_fields", "density");
+  expectError(job_ + "-where 'mass>1'", "unknown_operand", "mass");
+  expectError(job_ + "-where 'density>>1'", "operand_missing", "density>>1");
+  expectError(job_ + "-where 'density>1e9'", "no_points_where", "density>1e9");
+  for (const auto& [name, code] : {std::pair("in.csv/out.ply", "not_a_folder"),
+                                   std::pair("out.xyz9", "unwritten_ending")}) {
+    out_ = folder_ / name;
+    expectError(job_, code, name);
+  }
+  out_ = folder_ / "out.ply";
+  for (const auto& [name, code] :
+       {std::pair("none.pcd", "no_such_file"), std::pair("", "is_directory")}) {
+    in_ = folder_ / name;
+    expectError(job_, code, name);
+  }
 
-  const std::pair<const char*, const char*> files[] = {
-      {"empty.csv", ""},
-      {"empty.pcd", ""},
-      {"empty.ply", ""},
-      {"empty.vtk", ""},
-      {"empty.vtu", ""},
-      {"header.csv", "x,y,z,density\n"},
-      {"text.csv", "x,y,z,density\n0,0,zero,1\n1,1,1,2\n"},
-      {"short.csv", "x,y,z,density\n0,0,0,1\n1,1,1\n"},
-      {"nan.csv", "x,y,z,density\n0,0,0,\n1,1,1,nan\n"},
-      {"nowhere.csv", "x,y,z,density\nnan,0,0,1\n1,nan,1,2\n"},
+  const std::tuple<const char*, const char*, const char*> files[] = {
+      {"empty.csv", "empty_file", ""},
+      {"empty.pcd", "empty_file", ""},
+      {"empty.ply", "empty_file", ""},
+      {"empty.vtk", "empty_file", ""},
+      {"empty.vtu", "empty_file", ""},
+      {"header.csv", "no_points", "x,y,z,density\n"},
+      {"text.csv", "text_in_column", "x,y,z,density\n0,0,zero,1\n1,1,1,2\n"},
+      {"short.csv", "wrong_count", "x,y,z,density\n0,0,0,1\n1,1,1\n"},
+      {"nan.csv", "no_finite_value", "x,y,z,density\n0,0,0,\n1,1,1,nan\n"},
+      {"nowhere.csv", "no_usable_sample", "x,y,z,density\nnan,0,0,1\n1,nan,1,2\n"},
       {"absurd.pcd",
+       "truncated_data",
        "VERSION .7\nFIELDS x y z density\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 1\n"
        "WIDTH 99999999999\nHEIGHT 1\nPOINTS 99999999999\nDATA binary\n"},
       {"more.pcd",
+       "truncated_data",
        "VERSION .7\nFIELDS x y z density\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 1\n"
        "WIDTH 3\nHEIGHT 1\nPOINTS 3\nDATA ascii\n0 0 0 1\n1 1 1 2\n"},
       {"more.ply",
+       "truncated_part",
        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
        "property float z\nproperty float density\nend_header\n0 0 0 1\n1 1 1 2\n"},
       {"absurd.ply",
+       "truncated_part",
        "ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nproperty "
        "float "
        "x\nproperty float y\nproperty float z\nproperty float density\nend_header\n"},
-      {"garbage.vtk", "not a vtk file\n"},
-      {"garbage.vtu", "<VTKFile type=\"UnstructuredGrid\"><Unst"}};
-  for (const auto& [name, content] : files) {
-    SCOPED_TRACE(name);
-    const std::string bad = folder_ / name;
-    uvol_test::writeFile(bad, content);
-    expectFailure(run(bad + job), 1, "", folder_, 2);
-    EXPECT_EQ(0, runCommand("rm '" + bad + "'").exit_code);
+      {"garbage.vtk", "wrong_start", "not a vtk file\n"},
+      {"garbage.vtu", "missing_part", "<VTKFile type=\"UnstructuredGrid\"><Unst"}};
+  for (const auto& [name, code, content] : files) {
+    in_ = folder_ / name;
+    uvol_test::writeFile(in_, content);
+    uvol_test::expectError(run(job_ + "-json"), code);
+    EXPECT_EQ(2u, folder_.list().size());
+    std::filesystem::remove(in_);
   }
 }
 
 TEST_F(Isosurface, TruncatedFilesOfEachEncodingFail)
 {
-  for (const char* name : {"t.pcd", "t.ply"})
-    for (const char* ascii : {"", " -ascii"}) {
-      SCOPED_TRACE(std::string(name) + ascii);
-      const std::string whole = folder_ / name;
-      ASSERT_EQ(0,
-                run(in_ + " " + whole + " -field density -iso 15" + ascii).exit_code);
-      const std::string content = uvol_test::readFile(whole);
-      for (const double part : {0.02, 0.3, 0.9}) {
-        uvol_test::writeFile(
-            whole,
-            content.substr(
-                0,
-                static_cast<std::size_t>(part * static_cast<double>(content.size()))));
-        expectFailure(
-            run(whole + " " + out_ + " -field density -iso 15"), 1, name, folder_, 2);
-      }
-      EXPECT_EQ(0, runCommand("rm '" + whole + "'").exit_code);
+  const std::string samples = in_;
+  for (const auto& [name, ascii, early, late] :
+       {std::tuple("t.pcd", "", "truncated_data", "truncated_data"),
+        std::tuple("t.pcd", " -ascii", "truncated_data", "wrong_count"),
+        std::tuple("t.ply", "", "truncated_part", "truncated_part"),
+        std::tuple("t.ply", " -ascii", "truncated_part", "numbers_unlike_header")}) {
+    in_ = folder_ / name;
+    extract(samples, in_, ascii);
+    const std::string content = uvol_test::readFile(in_);
+    for (const auto& [part, code] :
+         {std::pair(0.02, early), std::pair(0.3, late), std::pair(0.9, late)}) {
+      const double length = part * static_cast<double>(content.size());
+      uvol_test::writeFile(in_, content.substr(0, static_cast<std::size_t>(length)));
+      expectError(job_, code, name);
     }
+    std::filesystem::remove(in_);
+  }
 }
 
 TEST_F(Isosurface, DegenerateCloudsGiveWhatTheyHold)
@@ -461,24 +430,29 @@ TEST_F(Isosurface, DegenerateCloudsGiveWhatTheyHold)
       {"coplanar.csv", "x,y,z,density\n0,0,5,10\n1,0,5,20\n0,1,5,10\n1,1,5,20\n", 2}};
   for (const auto& [name, content, least] : files) {
     SCOPED_TRACE(name);
-    const std::string file = folder_ / name;
-    uvol_test::writeFile(file, content);
-    const auto result = run(file + " " + out_ + " -field density -iso 15");
-    EXPECT_EQ(0, result.exit_code) << result.err;
+    in_ = folder_ / name;
+    uvol_test::writeFile(in_, content);
+    const auto result = uvol_test::succeeded(run(job_ + "-json"));
     EXPECT_GE(pointsIn(out_), least);
     EXPECT_EQ(least == 0, pointsIn(out_) == 0);
-    EXPECT_EQ(least == 0, result.err.find("No isopoints") != std::string::npos)
-        << result.err;
+    EXPECT_EQ(least == 0,
+              uvol_test::hasMessage(result, "no_isopoints") ||
+                  uvol_test::hasMessage(result, "constant_field"))
+        << result.out;
   }
 }
 
 TEST_F(Isosurface, AFullDiskLeavesNothingBehind)
 {
-  for (const char* name : {"out.ply", "out.pcd", "out.csv", "out.vtp"}) {
-    // 8 blocks of 512 or 1024 bytes: less than any of the results
+  // 8 blocks of 512 or 1024 bytes: less than any of the results
+  for (const auto& [name, code] : {std::pair("out.ply", "system_error"),
+                                   std::pair("out.pcd", "system_error"),
+                                   std::pair("out.csv", "system_error"),
+                                   std::pair("out.vtp", "full_disk")}) {
     const auto result = runCommand("ulimit -f 8; uvol_isosurface " + in_ + " " +
-                                   (folder_ / name) + " -field density -iso 15");
-    expectFailure(result, 1, name, folder_, 1);
+                                   (folder_ / name) + " -json " + job_);
+    uvol_test::expectError(result, code, name);
+    EXPECT_EQ(std::vector<std::string>{"in.csv"}, folder_.list());
   }
 }
 

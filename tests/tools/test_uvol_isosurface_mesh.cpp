@@ -48,8 +48,8 @@ protected:
   Json
   reportOf(const std::string& options) const
   {
-    const CommandResult result = run("-field f -iso 0.1 " + options + " -json");
-    EXPECT_EQ(0, result.exit_code) << result.err;
+    const CommandResult result =
+        uvol_test::succeeded(run("-field f -iso 0.1 " + options + " -json"));
     return Json::parse(result.out);
   }
 };
@@ -111,8 +111,8 @@ TEST_F(MeshTool, OpenMeshesEndAtTheBorder)
 {
   // At -0.15 the balls, of radius 0.65, reach over the border of the samples.
   const auto run_at = [&](const std::string& options) {
-    const CommandResult result = run("-field f -iso -0.15 -mesh -json " + options);
-    EXPECT_EQ(0, result.exit_code) << result.err;
+    const CommandResult result =
+        uvol_test::succeeded(run("-field f -iso -0.15 -mesh -json " + options));
     return Json::parse(result.out);
   };
   const Json closed = run_at(""), open = run_at("-open");
@@ -145,16 +145,12 @@ TEST_F(MeshTool, SaysWhereTrianglesAreBad)
           << std::sin(0.3 * x) + std::cos(0.4 * y) + 0.1 * i - 10.0 << '\n';
   }
   uvol_test::writeFile(in_, csv.str());
-  const std::string options = "-field f -iso 0 -json -mesh ";
-  const CommandResult result = run(options), rough = run(options + "-remesh none");
-  EXPECT_EQ(0, result.exit_code) << result.err;
-  const auto slivers = [](const CommandResult& told) {
-    const auto report = nlohmann::json::parse(told.out);
-    return uvol_test::warnedValues(report, "folds").at("is_even");
-  };
-  EXPECT_EQ(1, slivers(result)) << result.out;
-  EXPECT_EQ(0, rough.exit_code) << rough.err;
-  EXPECT_EQ(0, slivers(rough)) << rough.out;
+  for (const auto& [remesh, is_even] : {std::pair("", 1), {"-remesh none", 0}}) {
+    const Json report =
+        uvol_test::jsonOf(run(std::string("-field f -iso 0 -json -mesh ") + remesh));
+    EXPECT_EQ(is_even, uvol_test::warnedValues(report, "folds").at("is_even"))
+        << report;
+  }
 }
 
 TEST_F(MeshTool, StlReportsWhatItCannotStore)
@@ -164,8 +160,7 @@ TEST_F(MeshTool, StlReportsWhatItCannotStore)
                        "5505024.25,0,1,0\n5505023.25,0,0,0\n5505024.25,-1,0,0\n"
                        "5505024.25,0,-1,0\n");
   out_ = folder_ / "out.stl";
-  const CommandResult result = run("-field f -iso 0.5 -json");
-  EXPECT_EQ(0, result.exit_code) << result.err;
+  const CommandResult result = uvol_test::succeeded(run("-field f -iso 0.5 -json"));
   EXPECT_TRUE(uvol_test::hasMessage(result, "stl_without_origin")) << result.out;
 }
 
@@ -183,20 +178,20 @@ TEST_F(MeshTool, SmoothFieldsHaveMeshesToo)
 TEST_F(MeshTool, RefusesWhatDoesNotGoTogether)
 {
   const std::string base = "-field f -iso 0.1 ";
-  for (const char* const option :
-       {"-remesh none", "-edge-length 1", "-open", "-drop-pieces 3", "-check"})
-    expectFailure(base + option, 2, "needs -mesh");
-  expectFailure(base + "-mesh -interpolation linear", 2, "-interpolation linear");
-  expectFailure(base + "-mesh -neighbors voronoi", 2, "-neighbors voronoi");
-  expectFailure(base + "-mesh -normals pca", 2, "-normals pca");
-  expectFailure(base + "-mesh -max-error 0.1", 2, "-max-error");
-  expectFailure(base + "-mesh -drop-bridged", 2, "-drop-bridged");
-  expectFailure(base + "-mesh -max-memory 1G", 2, "-max-memory");
-  expectFailure(base + "-measure -max-memory 1G", 2, "-max-memory");
-  expectFailure(base + "-mesh -remesh none -edge-length 1", 2, "-remesh even");
-  expectFailure(base + "-mesh -edge-length -1", 2, "-edge-length");
+  expectUsageErrors(
+      base, {"-remesh none", "-edge-length 1", "-open", "-drop-pieces 3", "-check"});
+  expectUsageErrors(base + "-mesh ",
+                    {"-interpolation linear",
+                     "-neighbors voronoi",
+                     "-normals pca",
+                     "-max-error 0.1",
+                     "-drop-bridged",
+                     "-max-memory 1G",
+                     "-remesh none -edge-length 1",
+                     "-edge-length -1"});
+  expectUsageErrors(base + "-measure ", {"-max-memory 1G"});
   out_ = folder_ / "out.pcd";
-  expectFailure(base + "-mesh", 1, ".pcd");
+  expectError(base + "-mesh", "unwritten_ending", ".pcd");
 }
 
 } // namespace test_uvol_isosurface_mesh

@@ -6,6 +6,8 @@
 #include "support/environment.h"
 #include "support/mpi_job.h"
 #include "support/snapshots.h"
+#include "tools/json_warnings.h"
+#include "tools/sentences.h"
 #include <pcl_uvol/io/dataset.h>
 
 #include <gtest/gtest.h>
@@ -109,28 +111,26 @@ protected:
     ASSERT_EQ(0, result.exit_code) << arguments << ": " << result.err;
   }
 
-  /** That exit code, and one sentence with that text. */
+  /** That error, and no file that was not there. */
+  void
+  expectError(std::size_t processes,
+              const std::string& arguments,
+              const std::string& code,
+              const std::string& value = "") const
+  {
+    SCOPED_TRACE(arguments);
+    const auto before = folder_.list();
+    expectErrorOf(run(processes, arguments + " -json"), code, value);
+    EXPECT_EQ(before, folder_.list());
+  }
+
   static void
-  expectSentence(CommandResult result, int exit_code, const std::string& text)
+  expectErrorOf(CommandResult result, const std::string& code, const std::string& value)
   {
     // libevent in mpirun may say that it closed a file twice, with an empty line.
     result.err =
         std::regex_replace(result.err, std::regex("\\[warn\\] Epoll [^\n]*\n\n?"), "");
-    EXPECT_EQ(exit_code, result.exit_code) << result.err;
-    EXPECT_NE(std::string::npos, result.err.find(text)) << result.err;
-    EXPECT_EQ(1, std::count(result.err.begin(), result.err.end(), '\n')) << result.err;
-  }
-
-  /** That exit code, one sentence with that text, and no file that was not there. */
-  void
-  expectFailure(std::size_t processes,
-                const std::string& arguments,
-                int exit_code,
-                const std::string& text) const
-  {
-    const auto before = folder_.list();
-    expectSentence(run(processes, arguments), exit_code, text);
-    EXPECT_EQ(before, folder_.list()) << arguments;
+    uvol_test::expectError(result, code, value);
   }
 
   void
@@ -272,8 +272,11 @@ TEST_F(IsosurfaceMpi, SeesAcrossTheFacesOfABox)
     EXPECT_EQ(sortedPoints({folder_ / "alone.pcd"}),
               sortedPoints(piecesOf("out.pvtp")));
   }
-  const auto told = run(3, "in.csv out.csv -iso 0.3 -field intensity -periodic 1,1,1");
-  EXPECT_NE(std::string::npos, told.out.find("sides 1,1,1 from 0,0,0")) << told.out;
+  const auto told =
+      run(3, "in.csv out.csv -iso 0.3 -field intensity -json -periodic 1,1,1");
+  EXPECT_EQ((std::vector<double>{1.0, 1.0, 1.0}),
+            nlohmann::json::parse(told.out).at("periodic_box").at("sides"))
+      << told.out;
 }
 
 TEST_F(IsosurfaceMpi, TakesTheBoxOfAFile)
@@ -287,8 +290,8 @@ TEST_F(IsosurfaceMpi, TakesTheBoxOfAFile)
   expectSuccess(2, "snap out.csv -periodic header" + options);
   EXPECT_EQ(uvol_test::readFile(folder_ / "alone.csv"),
             uvol_test::readFile(folder_ / "out.csv"));
-  const auto result = run(2, "snap out.csv" + options);
-  EXPECT_NE(std::string::npos, result.err.find("-periodic header")) << result.err;
+  EXPECT_TRUE(
+      uvol_test::hasMessage(run(2, "snap out.csv -json" + options), "box_in_file"));
 }
 
 TEST_F(IsosurfaceMpi, SpeaksWithOneVoice)
@@ -296,17 +299,18 @@ TEST_F(IsosurfaceMpi, SpeaksWithOneVoice)
   save("in.pcd", labelled(*uvol_test::makeCloud("uniform", 500, 4)));
   const auto help = run(3, "-h");
   EXPECT_EQ(help.out.find("Usage:"), help.out.rfind("Usage:"));
-  const auto result = run(3, "in.pcd out.pvtp -iso 40 -field intensity");
-  EXPECT_EQ(0, result.exit_code);
-  EXPECT_NE(std::string::npos, result.out.find("processes: 3"));
-  EXPECT_EQ(result.out.find("isopoints per isovalue: 0\n"),
-            result.out.rfind("isopoints per"));
-  EXPECT_NE(std::string::npos, result.err.find("it is outside the range"));
+  const std::string empty = "in.pcd out.pvtp -iso 40 -field intensity";
+  const auto result = uvol_test::succeeded(run(3, empty));
+  const auto report = nlohmann::json::parse(run(3, empty + " -json").out);
+  EXPECT_EQ(3, report.at("processes"));
+  EXPECT_EQ(std::vector<int>{0}, report.at("isopoints_per_isovalue"));
+  EXPECT_TRUE(uvol_test::hasWarning(report, "no_isopoints"));
+  EXPECT_EQ(result.out.find("isopoints per"), result.out.rfind("isopoints per"));
   EXPECT_EQ(1, std::count(result.err.begin(), result.err.end(), '\n')) << result.err;
   EXPECT_EQ(std::string::npos, result.out.find('\033'));
   EXPECT_EQ(std::string::npos, result.out.find("bytes")); // these are for -v
-  const auto verbose = run(2, "in.pcd out.pvtp -iso 0.4 -field intensity -progress -v");
-  EXPECT_EQ(0, verbose.exit_code);
+  const auto verbose = uvol_test::succeeded(
+      run(2, "in.pcd out.pvtp -iso 0.4 -field intensity -progress -v"));
   EXPECT_NE(std::string::npos, verbose.out.find("bytes_redistributed"));
 }
 
@@ -314,16 +318,16 @@ TEST_F(IsosurfaceMpi, CountsIsopointsOfEachIsovalue)
 {
   save("in.pcd", labelled(*uvol_test::makeCloud("uniform", 3000, 4)));
   const auto countsOf = [](const CommandResult& result) {
-    std::smatch found;
-    std::regex_search(result.out, found, std::regex("isopoints per isovalue: .*"));
-    return found.str();
+    return nlohmann::json::parse(result.out)
+        .at("isopoints_per_isovalue")
+        .get<std::vector<int>>();
   };
-  const std::string options = " -iso 0.3,0.4,40 -field intensity";
+  const std::string options = " -json -iso 0.3,0.4,40 -field intensity";
   const auto alone = countsOf(runCommand(
       "cd " + folder_ / "" + " && uvol_isosurface in.pcd alone.pcd" + options));
-  EXPECT_TRUE(std::regex_match(
-      alone, std::regex("isopoints per isovalue: [1-9][0-9]+,[1-9][0-9]+,0")))
-      << alone;
+  ASSERT_EQ(3u, alone.size());
+  EXPECT_LE(10, std::min(alone[0], alone[1]));
+  EXPECT_EQ(0, alone[2]);
   EXPECT_EQ(alone, countsOf(run(3, "in.pcd out.pvtp" + options)));
   EXPECT_EQ(alone, countsOf(run(2, "in.pcd out.pcd" + options)));
 }
@@ -334,31 +338,32 @@ TEST_F(IsosurfaceMpi, EndsWithOneSentenceAndNoOutput)
   save("in.pcd", dataset);
   savePieces(dataset, {100, 200, 300});
   const std::string options = " out.pvtp -field intensity -iso 0.4";
-  expectFailure(3, "in.pcd out.pvtp -field intensity", 2, "-iso is missing");
-  expectFailure(3, "in.pcd" + options + " -scale auto", 2, "-scale auto");
-  expectFailure(3, "in.pcd" + options + " -scale 1,0,1", 2, "positive");
-  expectFailure(3, "in.pcd" + options + " -periodic 0,0,0", 2, "-periodic takes");
-  expectFailure(3, "in.pcd" + options + " -periodic -1,1,1", 2, "-periodic takes");
-  expectFailure(3, "in.pcd" + options + " -periodic header", 1, "names no box");
-  expectFailure(3, "none.pcd" + options, 1, "there is no such file");
-  expectFailure(3, "'none_*.vtp'" + options, 1, "no file matches");
-  expectFailure(3, "in.pcd out.pvtp -iso 0.4 -field speed", 1, "no field 'speed'");
-  expectFailure(3, "in.pcd none/out.pvtp -iso 0.4", 1, "there is no folder");
-  expectFailure(3, "in.pcd out.doc -iso 0.4", 1, "points are written as");
-  expectFailure(
-      3, "in.pcd" + options + " -where 'label<0'", 1, "no points for which label<0");
+  expectError(3, "in.pcd out.pvtp -field intensity", "command_line", "-iso");
+  expectError(3, "in.pcd" + options + " -scale auto", "command_line", "-scale auto");
+  expectError(3, "in.pcd" + options + " -scale 1,0,1", "command_line", "-scale");
+  expectError(3, "in.pcd" + options + " -periodic 0,0,0", "command_line", "-periodic");
+  expectError(3, "in.pcd" + options + " -periodic -1,1,1", "command_line", "-periodic");
+  expectError(3, "in.pcd" + options + " -periodic header", "no_box_in_file");
+  expectError(3, "none.pcd" + options, "no_such_file", "none.pcd");
+  expectError(3, "'none_*.vtp'" + options, "no_matching_file", "none_*.vtp");
+  expectError(
+      3, "in.pcd out.pvtp -iso 0.4 -field speed", "unknown_lone_field", "\"speed\"");
+  expectError(3, "in.pcd none/out.pvtp -iso 0.4", "no_folder", "none");
+  expectError(3, "in.pcd out.doc -iso 0.4", "unwritten_ending", "out.doc");
+  expectError(
+      3, "in.pcd" + options + " -where 'label<0'", "no_points_where", "label<0");
 
   const std::string whole = uvol_test::readFile(folder_ / "in_1.vtp");
   uvol_test::writeFile(folder_ / "in_1.vtp", whole.substr(0, whole.size() / 2));
-  expectFailure(3, "'in_*.vtp'" + options, 1, "in_1.vtp': it is incomplete");
+  expectError(3, "'in_*.vtp'" + options, "missing_part", "in_1.vtp");
   Dataset other = rowsOf(dataset, 100, 200);
   setField(other, "more", std::vector<float>(100));
   save("in_1.vtp", other);
-  expectFailure(3, "'in_*.vtp'" + options, 1, "have different fields");
+  expectError(3, "'in_*.vtp'" + options, "pieces_of_other_fields", "in_1.vtp");
   std::filesystem::remove(folder_ / "in_1.vtp");
-  expectFailure(2, "in_0.vtp in_1.vtp in_2.vtp" + options, 1, "in_1.vtp': there is no");
+  expectError(2, "in_0.vtp in_1.vtp in_2.vtp" + options, "no_such_file", "in_1.vtp");
   std::filesystem::create_directory(folder_ / "out_1.vtp");
-  expectFailure(3, "in.pcd" + options, 1, "out_1.vtp': it is a directory");
+  expectError(3, "in.pcd" + options, "is_directory", "out_1.vtp");
 }
 
 /** One process of three meets a fault of the library of faults; mpirun ends the others,
@@ -375,10 +380,10 @@ protected:
   }
 
   CommandResult
-  runWith(const std::string& faults) const
+  runWith(const std::string& faults, const std::string& options = "") const
   {
     const std::string arguments =
-        "uvol_isosurface_mpi in.pcd out.pvtp -iso 0.4 -field intensity";
+        "uvol_isosurface_mpi in.pcd out.pvtp -iso 0.4 -field intensity" + options;
     return runCommand("cd " + folder_ / "" + " && env " + mpirun(2, 30) + arguments +
                       " : -np 1 env LD_PRELOAD=" PCL_UVOL_FAULTS " UVOL_FAULTS=" +
                       faults + ' ' + arguments);
@@ -469,7 +474,7 @@ TEST_F(FaultsOfARank, KilledItLeavesNothing_long)
 
 TEST_F(FaultsOfARank, AFullDiskIsOneSentence)
 {
-  expectSentence(runWith("write:1+"), 1, "the disk may be full.");
+  expectErrorOf(runWith("write:1+", " -json"), "full_disk", "out_");
   EXPECT_EQ(std::vector<std::string>{"in.pcd"}, folder_.list());
 }
 

@@ -2,6 +2,8 @@
 // Level sets from the outside: uvol_levelset, and uvol_isosurface -smooth.
 #include "common/scalar_field.h"
 #include "support/environment.h"
+#include "tools/json_warnings.h"
+#include "tools/sentences.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/io/dataset.h>
 
@@ -63,16 +65,14 @@ protected:
   }
 
   static void
-  expectRefused(const std::string& arguments,
-                int exit_code,
-                const std::string& sentence)
+  expectError(const std::string& arguments,
+              const std::string& code,
+              const std::string& value = "")
   {
+    SCOPED_TRACE(arguments);
     std::remove(path("out.ply").c_str());
-    const auto result = run(arguments);
-    EXPECT_EQ(exit_code, result.exit_code) << arguments;
-    EXPECT_NE(std::string::npos, result.err.find(sentence))
-        << arguments << ": " << result.err;
-    EXPECT_EQ(std::vector<std::string>{"in.pcd"}, folder->list()) << arguments;
+    uvol_test::expectError(run(arguments + " -json"), code, value);
+    EXPECT_EQ(std::vector<std::string>{"in.pcd"}, folder->list());
   }
 
   static uvol_test::TemporaryFolder* folder;
@@ -82,28 +82,29 @@ uvol_test::TemporaryFolder* LevelSetTool::folder = nullptr;
 
 TEST_F(LevelSetTool, RefusesNonsense)
 {
-  expectRefused("", 2, "-iso is missing");
-  expectRefused("-iso 0 -mu 1.5", 2, "-mu takes auto or a number from 0 to 1");
-  expectRefused("-iso 0 -mu much", 2, "-mu");
-  expectRefused("-iso 0 -sphere 0,0,0,1 -box 0,0,0,1,1,1", 2, "Only one of -sphere");
-  expectRefused("-iso 0 -sphere 0,0,0,-1", 1, "positive radius");
-  expectRefused("-iso 0 -scheme cubic", 2, "-scheme");
-  expectRefused("-iso 0 -k 5", 1, "at least 9");
-  expectRefused("-iso 0 -band 1", 1, "at least 3 spacings");
-  expectRefused("-iso 17", 1, "does not separate the values of torus");
-  expectRefused("-iso 0 -start phi", 1, "phi");
-  expectRefused("-iso 0 -csv " + path("no/such/folder.csv"), 1, "folder.csv");
-  expectRefused("-iso 0 -plot " + path("plot.jpg"), 1, "plot.jpg");
+  expectError("", "command_line", "-iso");
+  expectError("-iso 0 -mu 1.5", "command_line", "'1.5'");
+  expectError("-iso 0 -mu much", "command_line", "-mu");
+  expectError("-iso 0 -sphere 0,0,0,1 -box 0,0,0,1,1,1", "command_line", "-sphere");
+  expectError("-iso 0 -sphere 0,0,0,-1", "initial_sphere_not_allowed");
+  expectError("-iso 0 -scheme cubic", "command_line", "-scheme");
+  expectError("-iso 0 -k 5", "few_neighbors_for_scheme", "9");
+  expectError("-iso 0 -band 1", "narrow_band");
+  expectError("-iso 17", "isovalue_beyond_values", "torus");
+  expectError("-iso 0 -start phi", "unknown_lone_field", "\"phi\"");
+  expectError("-iso 0 -csv " + path("no/such/folder.csv"), "no_folder", "folder.csv");
+  expectError("-iso 0 -plot " + path("plot.jpg"), "unwritten_ending", "plot.jpg");
 }
 
 TEST_F(LevelSetTool, WritesPhiBesideEveryField)
 {
-  const auto result = run("-iso 0 -csv " + path("steps.csv") + " -plot " +
-                          path("steps.png") + " -snapshots 5");
-  ASSERT_EQ(0, result.exit_code) << result.err;
-  EXPECT_NE(std::string::npos, result.out.find("at the smallest expected error after"));
-  EXPECT_NE(std::string::npos, result.out.find("sampling: all around"));
-  EXPECT_NE(std::string::npos, result.out.find("automatic: the last of a series"));
+  const auto report =
+      uvol_test::jsonOf(run("-iso 0 -csv " + path("steps.csv") + " -plot " +
+                            path("steps.png") + " -json -snapshots 5"));
+  EXPECT_EQ(1, report.at("level_set").at("converged"));
+  EXPECT_GT(report.at("level_set").at("steps"), 0);
+  EXPECT_GT(report.at("mu"), 0.0);
+  EXPECT_GT(report.at("sampling").at("volume"), 0.5);
   const auto dataset = pcl_uvol::loadDataset(path("out.ply"));
   EXPECT_EQ(60000u, dataset.cloud.width);
   for (const char* name : {"x", "phi", "torus"})
@@ -114,10 +115,8 @@ TEST_F(LevelSetTool, WritesPhiBesideEveryField)
   EXPECT_EQ("\x89PNG", uvol_test::readFile(path("steps.png")).substr(0, 4));
   EXPECT_LT(deviation(path("out_00010.ply")), 0.03);
   // The zero level of what was written is the smooth surface.
-  ASSERT_EQ(0,
-            runCommand("uvol_isosurface " + path("out.ply") + " " + path("zero.ply") +
-                       " -field phi -iso 0")
-                .exit_code);
+  uvol_test::runWell("uvol_isosurface " + path("out.ply") + " " + path("zero.ply") +
+                     " -field phi -iso 0");
   EXPECT_LT(deviation(path("zero.ply")), 0.01);
 }
 
@@ -125,46 +124,41 @@ TEST_F(LevelSetTool, SmoothIsosurfacesAreNearerToTheTruth)
 {
   const std::string extract = "uvol_isosurface " + path("in.pcd") + " ";
   const std::string field = " -field torus -iso 0 ";
-  ASSERT_EQ(0,
-            runCommand(extract + path("direct.ply") + field + "-interpolation linear")
-                .exit_code);
-  const auto smooth = runCommand(extract + path("smooth.ply") + field + "-smooth");
-  ASSERT_EQ(0, smooth.exit_code) << smooth.err;
+  uvol_test::runWell(extract + path("direct.ply") + field + "-interpolation linear");
+  const auto smooth =
+      uvol_test::runWell(extract + path("smooth.ply") + field + "-smooth");
   EXPECT_NE(std::string::npos, smooth.out.find("noise: "));
   EXPECT_LT(deviation(path("smooth.ply")), deviation(path("direct.ply")) / 3.0);
   const auto surface = pcl_uvol::loadDataset(path("smooth.ply"));
   EXPECT_NE(nullptr, pcl_uvol::findField(surface.cloud.fields, "torus"));
-  const auto two = runCommand(extract + path("two.ply") +
-                              " -field torus -iso -0.05,0.05 -smooth -mu 0.1");
-  ASSERT_EQ(0, two.exit_code) << two.err;
+  const auto two = uvol_test::runWell(extract + path("two.ply") +
+                                      " -field torus -iso -0.05,0.05 -smooth -mu 0.1");
   EXPECT_GT(pcl_uvol::loadDataset(path("two.ply")).cloud.width, surface.cloud.width);
   EXPECT_EQ(2, runCommand(extract + path("two.ply") + field + "-mu 0.1").exit_code);
 }
 
 TEST_F(LevelSetTool, SaysThatSamplesLieOnLines)
 {
-  const std::string told = "are between lines of samples or next to gaps";
-  EXPECT_EQ(std::string::npos, run("-iso 0 -steps 1").err.find(told));
+  const std::string told = "unconstrained_level_set";
+  EXPECT_FALSE(uvol_test::hasMessage(run("-iso 0 -steps 1 -json"), told));
   uvol_test::TemporaryFolder own;
-  ASSERT_EQ(0,
-            runCommand("uvol_generate " + own / "in.pcd" +
-                       " -field torus -n 5000 -samples holes")
-                .exit_code);
+  uvol_test::runWell("uvol_generate " + own / "in.pcd" +
+                     " -field torus -n 5000 -samples holes");
   const std::string command = "uvol_levelset " + own / "in.pcd" + " " +
-                              own / "out.ply" + " -field torus -iso 0 -steps 1";
+                              own / "out.ply" + " -field torus -iso 0 -steps 1 -json";
   for (const char* const axes : {"", " -scale 1,1,1 -rotate 30,40,10"}) {
-    const CommandResult result = runCommand(command + axes);
-    EXPECT_EQ(0, result.exit_code);
-    EXPECT_NE(std::string::npos, result.err.find(told)) << result.err;
+    const CommandResult result = uvol_test::runWell(command + axes);
+    EXPECT_TRUE(uvol_test::hasMessage(result, told)) << result.out;
   }
 }
 
 TEST_F(LevelSetTool, SaysThatItEndedTooEarly)
 {
-  const auto result = run("-iso 0 -steps 2");
-  EXPECT_EQ(0, result.exit_code);
-  EXPECT_NE(std::string::npos,
-            (result.out + result.err).find("has not converged by step 2"));
+  const auto result = uvol_test::succeeded(run("-iso 0 -steps 2 -json"));
+  const auto told =
+      uvol_test::warnedValues(nlohmann::json::parse(result.out), "not_converged");
+  ASSERT_FALSE(told.is_null()) << result.out;
+  EXPECT_EQ(2, told.at("steps"));
 }
 
 } // namespace test_uvol_levelset

@@ -53,8 +53,8 @@ protected:
   Json
   reportOf(const std::string& arguments) const
   {
-    const CommandResult result = runCommand("uvol_measure " + arguments + " -json");
-    EXPECT_EQ(0, result.exit_code) << result.err;
+    const CommandResult result =
+        uvol_test::runWell("uvol_measure " + arguments + " -json");
     return Json::parse(result.out);
   }
 
@@ -145,9 +145,8 @@ TEST_F(MeasureTool, PrintsNoNumberThatIsNotFiniteOrWrapped)
       inputs.push_back(uvol_test::dataFolder() + "/../wild/" + name);
   for (const std::string& input : inputs)
     for (const char* const form : {"", " -json"}) {
-      const CommandResult result =
-          runCommand("uvol_measure " + input + " -iso 0.3 -outside higher" + form);
-      EXPECT_EQ(0, result.exit_code) << result.err;
+      const CommandResult result = uvol_test::runWell(
+          "uvol_measure " + input + " -iso 0.3 -outside higher" + form);
       for (const char* const wrong : {" nan", "-nan", " inf", "1844674407"})
         EXPECT_EQ(std::string::npos, result.out.find(wrong)) << result.out;
     }
@@ -163,10 +162,8 @@ TEST_F(MeasureTool, SumsSamplesBeyondTheIsovalue)
   const double beyond = open["samples_beyond"];
   EXPECT_EQ(0.5 * beyond, open["mass_beyond_sum"].get<double>());
   EXPECT_NEAR(beyond, open["samples"].get<double>(), 0.02 * beyond);
-  ASSERT_EQ(
-      0,
-      runCommand("uvol_isosurface " + in_ + " " + mesh_ + " -field rho -iso 0.5 -mesh")
-          .exit_code);
+  uvol_test::runWell("uvol_isosurface " + in_ + " " + mesh_ +
+                     " -field rho -iso 0.5 -mesh");
   const Json known = reportOf(mesh_ + " -samples " + in_ + " -field rho")["surfaces"];
   EXPECT_EQ(beyond, known["samples_beyond"].get<double>());
   const Json unknown = reportOf(mesh_ + " -samples " + in_)["surfaces"];
@@ -252,10 +249,9 @@ TEST_F(MeasureTool, DrawsCurves)
 
 TEST_F(MeasureTool, MeasuresMeshesAsTheSamplesTheyCameFrom)
 {
-  const CommandResult made = runCommand("uvol_isosurface " + in_ + " " + mesh_ +
-                                        " -field rho -iso 0.3 -mesh -measure -json");
-  ASSERT_EQ(0, made.exit_code) << made.err;
-  const Json told = Json::parse(made.out)["surfaces"],
+  const Json told = uvol_test::jsonOf(
+                 runCommand("uvol_isosurface " + in_ + " " + mesh_ +
+                            " -field rho -iso 0.3 -mesh -measure -json"))["surfaces"],
              measured = reportOf(mesh_ + " -samples " + in_)["surfaces"];
   for (const char* const name :
        {"area", "volume", "samples", "rho_volume_integral", "mass_sample_sum"})
@@ -273,10 +269,9 @@ TEST_F(MeasureTool, MeasuresMeshesAsTheSamplesTheyCameFrom)
 TEST_F(MeasureTool, MeasuresIsopointsWithoutAMesh)
 {
   const std::string points = folder_ / "points.csv";
-  const CommandResult made = runCommand("uvol_isosurface " + in_ + " " + points +
-                                        " -field rho -iso 0.3,0.5 -measure -json");
-  ASSERT_EQ(0, made.exit_code) << made.err;
-  const Json told = Json::parse(made.out)["surfaces"];
+  const Json told = uvol_test::jsonOf(
+      runCommand("uvol_isosurface " + in_ + " " + points +
+                 " -field rho -iso 0.3,0.5 -measure -json"))["surfaces"];
   const pcl_uvol::Dataset surface = pcl_uvol::loadDataset(points);
   const auto areas = fieldOf(surface, "area"), pieces = fieldOf(surface, "piece");
   double sums[2] = {0.0, 0.0};
@@ -308,10 +303,8 @@ TEST_F(MeasureTool, MeasuresMeshesOfAllFormats)
   double flat = 0.0;
   for (const char* const name : {"m.ply", "m.vtp", "m.obj", "m.off", "m.stl"}) {
     const std::string mesh = folder_ / name;
-    ASSERT_EQ(
-        0,
-        runCommand("uvol_isosurface " + in_ + " " + mesh + " -field rho -iso 0.3 -mesh")
-            .exit_code);
+    uvol_test::runWell("uvol_isosurface " + in_ + " " + mesh +
+                       " -field rho -iso 0.3 -mesh");
     const Json surfaces = reportOf(mesh + " -flat")["surfaces"];
     if (flat == 0.0)
       flat = surfaces["volume"];
@@ -323,8 +316,7 @@ TEST_F(MeasureTool, MeasuresMeshesOfAllFormats)
 
 TEST_F(MeasureTool, PrintsAReportForPeople)
 {
-  const CommandResult result = run("-field rho -iso 0.5");
-  EXPECT_EQ(0, result.exit_code) << result.err;
+  const CommandResult result = uvol_test::succeeded(run("-field rho -iso 0.5"));
   for (const char* const part : {"surface at 0.5: area 3.14",
                                  "volume 0.523",
                                  "1 piece, genus 0",
@@ -352,8 +344,7 @@ TEST_F(MeasureTool, OpenMeshesHaveNoVolume)
                        "property float x\nproperty float y\nproperty float z\n"
                        "element face 1\nproperty list uchar int vertex_indices\n"
                        "end_header\n0 0 0\n2 0 0\n0 3 0\n3 0 1 2\n");
-  const CommandResult result = runCommand("uvol_measure " + mesh_);
-  EXPECT_EQ(0, result.exit_code);
+  const CommandResult result = uvol_test::runWell("uvol_measure " + mesh_);
   EXPECT_NE(std::string::npos, result.out.find("area 3 "));
   EXPECT_NE(std::string::npos, result.out.find("open at 1 boundary loop"));
   const Json report = reportOf(mesh_);
@@ -363,23 +354,24 @@ TEST_F(MeasureTool, OpenMeshesHaveNoVolume)
 
 TEST_F(MeasureTool, RefusesWrongCommandLines)
 {
-  expectFailure("", 2, "-iso");
-  expectFailure("-field rho -iso 0.1:0.5", 2, "0.1:0.5");
-  expectFailure("-field rho -iso 0.1:0:1", 2, "0.1:0:1");
-  expectFailure("-field rho -iso 0.1:0.5:x", 2, "'x' is not a number");
-  expectFailure("-field rho -iso 0:0.5:5log", 2, "log");
-  expectFailure("-field rho -iso 0.5 -png " + picture_, 2, "-iso two");
-  expectFailure("-field rho -iso 0.5 -plot area", 2, "-png");
-  expectFailure("-field rho -iso 0.5 -samples " + in_, 2, "-samples");
-  expectFailure("-field rho -iso 0.2,0.5 -png " + picture_ + " -plot no", 2, "no");
+  expectError("", "command_line", "-iso");
+  expectError("-field rho -iso 0.1:0.5", "command_line", "0.1:0.5");
+  expectError("-field rho -iso 0.1:0:1", "command_line", "0.1:0:1");
+  expectError("-field rho -iso 0.1:0.5:x", "command_line", "'x'");
+  expectError("-field rho -iso 0:0.5:5log", "command_line", "log");
+  expectError("-field rho -iso 0.5 -png " + picture_, "command_line", "-iso");
+  expectError("-field rho -iso 0.5 -plot area", "command_line", "-png");
+  expectError("-field rho -iso 0.5 -samples " + in_, "command_line", "-samples");
+  expectError(
+      "-field rho -iso 0.2,0.5 -png " + picture_ + " -plot no", "command_line", "no");
   expectError("-field rho -iso 7", "no_surface_to_measure");
-  expectFailure("-field nothing -iso 7", 1, "nothing");
-  expectFailure("-block 1,1,1", 2, "-iso");
-  expectFailure("-field rho -iso 0.5 -block 0,1,1", 1, "positive");
-  expectFailure("-field rho -iso 0.5 -block 1,1,1 -pieces", 2, "-pieces");
+  expectError("-field nothing -iso 7", "unknown_lone_field", "\"nothing\"");
+  expectError("-block 1,1,1", "command_line", "-iso");
+  expectError("-field rho -iso 0.5 -block 0,1,1", "block_sides_not_positive");
+  expectError("-field rho -iso 0.5 -block 1,1,1 -pieces", "command_line", "-pieces");
   expectError("-field rho -iso 0.5 -block 1e-4,1e-4,1e-4", "too_many_blocks");
   out_ = folder_ / "out.jpg";
-  expectFailure("-field rho -iso 0.5", 1, ".jpg");
+  expectError("-field rho -iso 0.5", "unwritten_ending", ".jpg");
 }
 
 TEST_F(MeasureTool, RefusesWhatIsNoSurface)
@@ -392,9 +384,7 @@ TEST_F(MeasureTool, RefusesWhatIsNoSurface)
   };
   refuses(folder_ / "missing.ply", "missing.ply");
   const std::string points = folder_ / "points.ply";
-  ASSERT_EQ(0,
-            runCommand("uvol_isosurface " + in_ + " " + points + " -field rho -iso 0.3")
-                .exit_code);
+  uvol_test::runWell("uvol_isosurface " + in_ + " " + points + " -field rho -iso 0.3");
   refuses(points + " -iso 0.3 -measure", "-measure");
   for (const char* const option : {"-flat", "-check", "-samples x.ply"})
     refuses(points + " " + option, "needs triangles");

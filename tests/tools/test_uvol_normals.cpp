@@ -2,6 +2,8 @@
 // uvol_normals from the outside: normals beside all other fields, sides, exit codes.
 #include "common/scalar_field.h"
 #include "support/environment.h"
+#include "tools/json_warnings.h"
+#include "tools/sentences.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/io/dataset.h>
 
@@ -76,25 +78,23 @@ protected:
 
 TEST_F(NormalsTool, NormalsOfTheFileOrientTheNewOnes)
 {
-  const auto result = run(true, "-k 20");
-  ASSERT_EQ(0, result.exit_code) << result.err;
-  EXPECT_EQ(std::string::npos, (result.out + result.err).find("-viewpoint"));
+  const auto result = uvol_test::succeeded(run(true, "-k 20 -json"));
+  EXPECT_FALSE(uvol_test::hasMessage(result, "oriented_to_zero"));
   expectNormals(1);
 }
 
 TEST_F(NormalsTool, TheViewPointOrientsWhereThereAreNone)
 {
-  const auto result = run(false, "-viewpoint 100,0,0 -threads 1");
-  ASSERT_EQ(0, result.exit_code) << result.err;
-  EXPECT_EQ(std::string::npos, (result.out + result.err).find("-viewpoint to choose"));
+  const auto result =
+      uvol_test::succeeded(run(false, "-viewpoint 100,0,0 -threads 1 -json"));
+  EXPECT_FALSE(uvol_test::hasMessage(result, "oriented_to_zero"));
   expectNormals(-1);
 }
 
 TEST_F(NormalsTool, SaysThatTheOriginOrientsByDefault)
 {
-  const auto result = run(false, "");
-  ASSERT_EQ(0, result.exit_code) << result.err;
-  EXPECT_NE(std::string::npos, (result.out + result.err).find("-viewpoint to choose"));
+  const auto result = uvol_test::succeeded(run(false, "-json"));
+  EXPECT_TRUE(uvol_test::hasMessage(result, "oriented_to_zero")) << result.out;
   expectNormals(0);
 }
 
@@ -104,8 +104,7 @@ TEST_F(NormalsTool, DrawsABarOnATerminalAndIsQuietInAPipe)
   ASSERT_EQ(0, uvol_test::runCommand("uvol_generate " + cloud + " -n 30000").exit_code);
   const std::string arguments =
       "uvol_normals " + cloud + " " + out_ + " -k 250 -threads 1";
-  const auto piped = uvol_test::runCommand(arguments);
-  ASSERT_EQ(0, piped.exit_code) << piped.err;
+  const auto piped = uvol_test::runWell(arguments);
   EXPECT_EQ(std::string::npos, piped.err.find("s left")) << piped.err;
   // script(1) runs a command on a terminal of its own.
   const std::string command = std::string(PCL_UVOL_TOOL_DIR) + "/" + arguments;
@@ -125,9 +124,9 @@ TEST_F(NormalsTool, RefusesWhatItCannotDo)
     EXPECT_EQ(1u, folder_.list().size());
   }
   uvol_test::writeFile(in_, "x,y,z\n");
-  const auto empty = uvol_test::runCommand("uvol_normals " + in_ + " " + out_);
-  EXPECT_EQ(1, empty.exit_code);
-  EXPECT_NE(std::string::npos, empty.err.find("no points")) << empty.err;
+  uvol_test::expectError(
+      uvol_test::runCommand("uvol_normals " + in_ + " " + out_ + " -json"),
+      "no_points");
   EXPECT_EQ(1u, folder_.list().size());
 }
 

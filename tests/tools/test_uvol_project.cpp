@@ -212,8 +212,8 @@ TEST_F(ProjectTool, PrincipalComponentsFallInVariance)
 TEST_F(ProjectTool, StarCoordinatesKeepClustersApart)
 {
   const auto ratio = [&](const char* method) {
-    const auto result = run(attributes_ + "-label truth -json -method " + method);
-    EXPECT_EQ(0, result.exit_code) << result.err;
+    const auto result =
+        uvol_test::succeeded(run(attributes_ + "-label truth -json -method " + method));
     const std::string key = "\"smallest_Fisher_ratio\": ";
     const std::size_t at = result.out.find(key);
     EXPECT_NE(std::string::npos, at) << result.out;
@@ -253,8 +253,7 @@ TEST_F(ProjectTool, DrawsAPicture)
 {
   std::vector<std::vector<std::uint8_t>> pictures;
   for (const char* view : {"", "-view front", "-view iso"}) {
-    const auto result = run(attributes_ + "-png " + picture_ + " " + view);
-    ASSERT_EQ(0, result.exit_code) << result.err;
+    uvol_test::succeeded(run(attributes_ + "-png " + picture_ + " " + view));
     int channels = 0;
     const auto image = uvol_test::readPng(picture_, channels);
     EXPECT_EQ(640u, image.width);
@@ -313,8 +312,8 @@ TEST_F(ProjectTool, ConstantAttributesAreLeftOutWithAWarning)
     table += "7\n";
   }
   uvol_test::writeFile(in_, table);
-  const auto result = run("-attributes a,c,d,e,same -json -axes " + axes_);
-  EXPECT_EQ(0, result.exit_code) << result.err;
+  const auto result =
+      uvol_test::succeeded(run("-attributes a,c,d,e,same -json -axes " + axes_));
   EXPECT_TRUE(uvol_test::hasMessage(result, "constant_attribute")) << result.out;
   EXPECT_EQ(0u, readAxes(axes_).count("same"));
 }
@@ -324,9 +323,8 @@ TEST_F(ProjectTool, SameBytesForAnyNumberOfThreads)
   for (const char* options : {"", "-method pca", "-raw"}) {
     std::string expected;
     for (const char* threads : {"1", "2", "3"}) {
-      const auto result = run(attributes_ + options + " -axes " + axes_ + " -png " +
-                              picture_ + " -threads " + threads);
-      ASSERT_EQ(0, result.exit_code) << result.err;
+      uvol_test::succeeded(run(attributes_ + options + " -axes " + axes_ + " -png " +
+                               picture_ + " -threads " + threads));
       const std::string bytes = readFile(out_) + readFile(axes_) + readFile(picture_);
       if (expected.empty())
         expected = bytes;
@@ -337,44 +335,47 @@ TEST_F(ProjectTool, SameBytesForAnyNumberOfThreads)
 
 TEST_F(ProjectTool, RefusesAttributesThatAreNone)
 {
-  expectFailure("", 2, "-attributes is missing");
+  expectError("", "command_line", "-attributes");
   for (const char* names : {"a,,b", ",a,b", "a,b,", ","})
-    expectFailure(std::string("-attributes ") + names, 2, "empty name");
-  expectFailure("-attributes ''", 2, "-attributes");
-  expectError("-attributes a,b,nope", "unknown_lone_field", "'nope'");
+    expectError(std::string("-attributes ") + names, "command_line", "-attributes");
+  expectError("-attributes ''", "command_line", "-attributes");
+  expectError("-attributes a,b,nope", "unknown_lone_field", R"("nope")");
   expectError("-attributes a,b,a", "same_attributes");
-  expectFailure("-attributes '|a,b'", 1, "|a,b");
-  expectFailure("-attributes '|a,nope|,b,c'", 1, "nope");
+  expectError("-attributes '|a,b'", "bar_not_closed", "|a,b");
+  expectError("-attributes '|a,nope|,b,c'", "unknown_operand", "\"nope\"");
 }
 
 TEST_F(ProjectTool, RefusesLabelsThatAreNone)
 {
-  expectFailure(attributes_ + "-label nope", 1, "'nope'");
+  expectError(attributes_ + "-label nope", "unknown_field", "\"nope\"");
   expectError(attributes_ + "-label a", "labels_not_integers");
 }
 
 TEST_F(ProjectTool, RefusesWrongCommandLines)
 {
-  expectFailure(attributes_ + "-method umap", 2, "umap");
-  expectFailure(attributes_ + "-view above", 2, "above");
-  expectFailure(attributes_ + "-wat", 2, "-wat");
-  expectFailure(attributes_ + "more", 2, "more");
-  expectFailure(attributes_ + "-axes " + (folder_ / "axes.txt"), 1, ".csv");
-  expectFailure(attributes_ + "-axes " + (folder_ / "no/axes.csv"), 1, "axes.csv");
-  expectFailure(attributes_ + "-png " + (folder_ / "out.jpg"), 1, ".png");
+  expectError(attributes_ + "-method umap", "command_line", "umap");
+  expectError(attributes_ + "-view above", "command_line", "above");
+  expectError(attributes_ + "-wat", "command_line", "-wat");
+  expectError(attributes_ + "more", "command_line", "more");
+  expectError(
+      attributes_ + "-axes " + (folder_ / "axes.txt"), "unwritten_ending", ".csv");
+  expectError(
+      attributes_ + "-axes " + (folder_ / "no/axes.csv"), "no_folder", "axes.csv");
+  expectError(
+      attributes_ + "-png " + (folder_ / "out.jpg"), "unwritten_ending", ".png");
 }
 
 TEST_F(ProjectTool, RefusesOtherFiles)
 {
   out_ = folder_ / "out.what";
-  expectFailure(attributes_, 1, "out.what");
+  expectError(attributes_, "unwritten_ending", "out.what");
   out_ = folder_ / "out.ply";
   uvol_test::writeFile(in_, "a,b,c,d,e\n");
   expectError(attributes_, "no_points");
   uvol_test::writeFile(in_, "a,b,c,d,e\n1,2,3,4,\n,1,2,3,4\n");
   expectError(attributes_, "no_complete_point");
   in_ = folder_ / "missing.csv";
-  expectFailure(attributes_, 1, "missing.csv");
+  expectError(attributes_, "no_such_file", "missing.csv");
 }
 
 } // namespace test_uvol_project

@@ -3,6 +3,8 @@
 // uvol_isosurface -raytrace.
 #include "support/environment.h"
 #include "support/png.h"
+#include "tools/json_warnings.h"
+#include "tools/sentences.h"
 
 #include <gtest/gtest.h>
 
@@ -52,24 +54,19 @@ protected:
   surface(const std::string& options = "") const
   {
     const std::string samples = folder_ / "samples.pcd", path = folder_ / "torus.ply";
-    EXPECT_EQ(
-        0, runCommand("uvol_generate " + samples + " -field torus -n 20000").exit_code);
-    EXPECT_EQ(
-        0,
-        runCommand("uvol_isosurface " + samples + " " + path + " -iso 0" + options)
-            .exit_code);
+    uvol_test::runWell("uvol_generate " + samples + " -field torus -n 20000");
+    uvol_test::runWell("uvol_isosurface " + samples + " " + path + " -iso 0" + options);
     return path;
   }
 
   void
-  expectRefused(const std::string& arguments,
-                int exit_code,
-                const std::string& says) const
+  expectError(const std::string& arguments,
+              const std::string& code,
+              const std::string& value) const
   {
-    const CommandResult result = run(arguments);
-    EXPECT_EQ(exit_code, result.exit_code) << arguments;
-    EXPECT_NE(std::string::npos, result.err.find(says)) << result.err;
-    EXPECT_FALSE(std::filesystem::exists(picture_)) << arguments;
+    SCOPED_TRACE(arguments);
+    uvol_test::expectError(run(arguments + " -json"), code, value);
+    EXPECT_FALSE(std::filesystem::exists(picture_));
   }
 
   const uvol_test::TemporaryFolder folder_;
@@ -78,9 +75,10 @@ protected:
 
 TEST_F(RaytraceTool, DrawsAScene)
 {
-  const CommandResult result = run(sceneOf("1 0 0") + " " + picture_);
-  ASSERT_EQ(0, result.exit_code) << result.err;
-  EXPECT_NE(std::string::npos, result.out.find("primary rays")) << result.out;
+  const CommandResult result =
+      uvol_test::succeeded(run(sceneOf("1 0 0") + " " + picture_ + " -json"));
+  EXPECT_TRUE(nlohmann::json::parse(result.out).at("counts").contains("primary_rays"))
+      << result.out;
   const auto image = read(picture_);
   ASSERT_EQ(40u, image.width);
   ASSERT_EQ(30u, image.height);
@@ -92,10 +90,9 @@ TEST_F(RaytraceTool, DrawsAScene)
 TEST_F(RaytraceTool, TheCommandLineComesBeforeTheScene)
 {
   const std::string scene = sceneOf("1 0 0");
-  ASSERT_EQ(0,
-            run(scene + " " + picture_ +
-                " -size 20 -background 0,1,0 -eye 30,0,0 -supersample 2 -depth 0")
-                .exit_code);
+  uvol_test::succeeded(
+      run(scene + " " + picture_ +
+          " -size 20 -background 0,1,0 -eye 30,0,0 -supersample 2 -depth 0"));
   const auto image = read(picture_);
   ASSERT_EQ(20u, image.width);
   EXPECT_EQ(255, image.color[1]);
@@ -133,7 +130,7 @@ TEST_F(RaytraceTool, OptionsChangeTheCameraOfASceneOneByOne)
   }
   uvol_test::writeFile(scene, "size 40 30\nsphere 0 0 0 1\n");
   std::filesystem::remove(picture_);
-  expectRefused(scene + " " + picture_ + " -at 0,0,0", 2, "-at needs -eye");
+  expectError(scene + " " + picture_ + " -at 0,0,0", "command_line", "-eye");
 }
 
 TEST_F(RaytraceTool, DrawsPointsAndSplatsAlike)
@@ -144,8 +141,7 @@ TEST_F(RaytraceTool, DrawsPointsAndSplatsAlike)
   const std::string look = " -size 64 -reflect 0.2 -depth 2 -color mean_curvature";
   ASSERT_EQ(0, run(torus + " " + picture_ + look).exit_code);
   ASSERT_EQ(0, runCommand("uvol_splats " + torus + " " + splats).exit_code);
-  const CommandResult result = run(splats + " " + other + look);
-  ASSERT_EQ(0, result.exit_code) << result.err;
+  uvol_test::succeeded(run(splats + " " + other + look));
   // Ranges of colours are those of all points or of all splats: a highlight may be
   // white in one of the pictures only.
   const auto a = read(picture_), b = read(other);
@@ -162,9 +158,8 @@ TEST_F(RaytraceTool, DrawsPointsAndSplatsAlike)
 
 TEST_F(RaytraceTool, OrbitsAndReportsInJson)
 {
-  const CommandResult result =
-      run(sceneOf("1 1 1") + " " + picture_ + " -orbit 3 -size 10 -json");
-  ASSERT_EQ(0, result.exit_code) << result.err;
+  const CommandResult result = uvol_test::succeeded(
+      run(sceneOf("1 1 1") + " " + picture_ + " -orbit 3 -size 10 -json"));
   EXPECT_NE(std::string::npos, result.out.find("\"primary_rays\"")) << result.out;
   for (const char* frame : {"out_0.png", "out_1.png", "out_2.png"})
     EXPECT_TRUE(std::filesystem::exists(folder_ / frame)) << frame;
@@ -180,8 +175,7 @@ TEST_F(RaytraceTool, PicturesOfScenesSayWhereTheyAreFrom)
   for (const auto& [options, camera] :
        {std::pair("", "-eye 0,-9,0.5 -at 0,0,0.25 -up 0,0,1 -fov 20"),
         std::pair(" -eye 1,-8,0.5", "-eye 1,-8,0.5 -at 0,0,0.25 -up 0,0,1 -fov 20")}) {
-    const CommandResult result = run(scene + " " + picture_ + options);
-    ASSERT_EQ(0, result.exit_code) << result.err;
+    uvol_test::succeeded(run(scene + " " + picture_ + options));
     const std::string bytes = uvol_test::readFile(picture_);
     EXPECT_NE(std::string::npos, bytes.find(std::string("Camera\0", 7) + camera))
         << options;
@@ -195,13 +189,12 @@ TEST_F(RaytraceTool, PicturesOfScenesSayWhereTheyAreFrom)
 TEST_F(RaytraceTool, IsosurfacesAreTracedAtOnce)
 {
   const std::string samples = folder_ / "s.pcd", out = folder_ / "s.ply";
-  ASSERT_EQ(
-      0, runCommand("uvol_generate " + samples + " -field torus -n 20000").exit_code);
+  uvol_test::runWell("uvol_generate " + samples + " -field torus -n 20000");
   const std::string extract = "uvol_isosurface " + samples + " " + out + " -iso 0 ";
   EXPECT_EQ(2, runCommand(extract + "-raytrace").exit_code);
-  const CommandResult result = runCommand(extract + "-raytrace -png " + picture_ +
-                                          " -size 50 -reflect 0.3 -delta 0.001 -v");
-  ASSERT_EQ(0, result.exit_code) << result.err;
+  const CommandResult result =
+      uvol_test::runWell(extract + "-raytrace -png " + picture_ +
+                         " -size 50 -reflect 0.3 -delta 0.001 -v");
   EXPECT_NE(std::string::npos, result.out.find("picture_trace")) << result.out;
   EXPECT_EQ(50u, read(picture_).width);
   const std::string bare = folder_ / "bare.png",
@@ -210,10 +203,9 @@ TEST_F(RaytraceTool, IsosurfacesAreTracedAtOnce)
   ASSERT_EQ(0, runCommand(small + bare).exit_code);
   ASSERT_EQ(0, runCommand(small + picture_ + " -occlusion-rays 16").exit_code);
   EXPECT_NE(read(bare).color, read(picture_).color);
-  const CommandResult wrong = runCommand(small + picture_ + " -occlusion 0.5");
-  EXPECT_EQ(2, wrong.exit_code);
-  EXPECT_NE(std::string::npos, wrong.err.find("-raytrace has -occlusion-rays"))
-      << wrong.err;
+  uvol_test::expectError(runCommand(small + picture_ + " -json -occlusion 0.5"),
+                         "command_line",
+                         "-occlusion-rays");
   // Whatever image space has
   const std::string help = runCommand("uvol_isosurface -h 'Drawing points'").out +
                            runCommand("uvol_isosurface -h Lines").out +
@@ -224,11 +216,11 @@ TEST_F(RaytraceTool, IsosurfacesAreTracedAtOnce)
        ++option, ++refused) {
     const std::map<std::string, std::string> values{
         {"", ""}, {"n", "1"}, {"number", "0.5"}, {"none", "none"}, {"r,g,b", "0,0,0"}};
-    const CommandResult given = runCommand(
-        small + picture_ + " -" + (*option)[1].str() + ' ' + values.at((*option)[2]));
-    EXPECT_EQ(2, given.exit_code) << (*option)[1];
-    EXPECT_NE(std::string::npos, given.err.find("is for pictures in image space"))
-        << given.err;
+    const std::string name = " -" + (*option)[1].str() + ' ';
+    uvol_test::expectError(
+        runCommand(small + picture_ + " -json" + name + values.at((*option)[2])),
+        "command_line",
+        name.substr(1));
   }
   EXPECT_EQ(16u, refused);
 }
@@ -264,8 +256,8 @@ TEST_F(RaytraceTool, CullsAsRenderingInImageSpaceDoes)
   for (std::size_t i = 0; i < cover.size(); ++i)
     different += cover[i] != other[i];
   EXPECT_LT(different, 60);
-  ASSERT_EQ(
-      0, run(half + " " + picture_ + " -size 60 -color none -view bottom").exit_code);
+  uvol_test::succeeded(
+      run(half + " " + picture_ + " -size 60 -color none -view bottom"));
   const std::vector<bool> whole = coverOf(read(picture_));
   EXPECT_LT(covered, std::count(whole.begin(), whole.end(), true) / 2);
 }
@@ -273,23 +265,25 @@ TEST_F(RaytraceTool, CullsAsRenderingInImageSpaceDoes)
 TEST_F(RaytraceTool, RefusesWhatIsWrong)
 {
   const std::string scene = sceneOf("1 1 1"), torus = surface();
-  expectRefused("", 2, "<in> is missing");
-  expectRefused(scene + " " + picture_ + " -reflect 0.1", 2, "is for a cloud");
-  expectRefused(scene + " " + picture_ + " -color f", 2, "is for a cloud");
-  expectRefused(torus + " " + picture_ + " -folder x", 2, "clouds of a scene");
-  expectRefused(
-      torus + " " + picture_ + " -reflect 0.6 -transparent 0.6", 2, "at most 1");
-  expectRefused(torus + " " + picture_ + " -index 0", 2, "-index");
-  expectRefused(torus + " " + picture_ + " -depth -1", 2, "-depth");
-  expectRefused(torus + " " + picture_ + " -delta 0", 2, "-delta");
-  expectRefused(torus + " " + picture_ + " -lambda 2", 2, "-lambda");
-  expectRefused(torus + " " + picture_ + " -color unknown", 1, "unknown");
-  expectRefused("missing.scene " + picture_, 1, "missing.scene");
-  expectRefused("missing.ply " + picture_, 1, "missing.ply");
+  expectError("", "command_line", "<in>");
+  expectError(scene + " " + picture_ + " -reflect 0.1", "command_line", "-reflect");
+  expectError(scene + " " + picture_ + " -color f", "command_line", "-color");
+  expectError(torus + " " + picture_ + " -folder x", "command_line", "-folder");
+  expectError(torus + " " + picture_ + " -reflect 0.6 -transparent 0.6",
+              "command_line",
+              "-transparent");
+  expectError(torus + " " + picture_ + " -index 0", "command_line", "-index");
+  expectError(torus + " " + picture_ + " -depth -1", "command_line", "-depth");
+  expectError(torus + " " + picture_ + " -delta 0", "command_line", "-delta");
+  expectError(torus + " " + picture_ + " -lambda 2", "command_line", "-lambda");
+  expectError(
+      torus + " " + picture_ + " -color unknown", "unknown_lone_field", "\"unknown\"");
+  expectError("missing.scene " + picture_, "no_such_file", "missing.scene");
+  expectError("missing.ply " + picture_, "no_such_file", "missing.ply");
   uvol_test::writeFile(folder_ / "bad.scene", "sphere 0 0 0 1\nspehre 0 0 0 1\n");
-  expectRefused((folder_ / "bad.scene") + " " + picture_, 1, "bad.scene:2:1: ");
+  expectError((folder_ / "bad.scene") + " " + picture_, "unknown_word", R"("spehre")");
   uvol_test::writeFile(folder_ / "none.csv", "x,y,z\n");
-  expectRefused((folder_ / "none.csv") + " " + picture_, 1, "none.csv");
+  expectError((folder_ / "none.csv") + " " + picture_, "no_points", "none.csv");
 }
 
 TEST_F(RaytraceTool, PrintsEqualWarningsOnce)
@@ -300,10 +294,11 @@ TEST_F(RaytraceTool, PrintsEqualWarningsOnce)
   for (int i = 0; i < 30; ++i)
     scene += "cloud c.csv at " + std::to_string(i) + " 0 0\n";
   uvol_test::writeFile(folder_ / "many.scene", scene);
-  const CommandResult result = run((folder_ / "many.scene") + " " + picture_);
-  ASSERT_EQ(0, result.exit_code) << result.err;
-  EXPECT_EQ(1, std::count(result.err.begin(), result.err.end(), '\n')) << result.err;
-  EXPECT_NE(std::string::npos, result.err.find("(30 times)")) << result.err;
+  const auto warnings =
+      uvol_test::jsonOf(run((folder_ / "many.scene") + " " + picture_ + " -json"))
+          .at("warnings");
+  ASSERT_EQ(1u, warnings.size()) << warnings;
+  EXPECT_EQ(30, warnings[0].at("times"));
 }
 
 TEST_F(RaytraceTool, EstimatesNormalsAndSaysSo)
@@ -315,9 +310,9 @@ TEST_F(RaytraceTool, EstimatesNormalsAndSaysSo)
     text += std::to_string(random.uniform()) + "," + std::to_string(random.uniform()) +
             ",0\n";
   uvol_test::writeFile(points, text);
-  const CommandResult result = run(points + " " + picture_ + " -size 20");
-  EXPECT_EQ(0, result.exit_code) << result.err;
-  EXPECT_NE(std::string::npos, (result.out + result.err).find("estimated"));
+  const CommandResult result =
+      uvol_test::succeeded(run(points + " " + picture_ + " -size 20 -json"));
+  EXPECT_TRUE(uvol_test::hasMessage(result, "estimated_normals")) << result.out;
 }
 
 } // namespace test_uvol_raytrace

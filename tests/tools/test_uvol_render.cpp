@@ -3,7 +3,7 @@
 #include "support/environment.h"
 #include "support/png.h"
 #include "support/surfaces.h"
-#include "tools/json_warnings.h"
+#include "tools/tool_test.h"
 #include <pcl_uvol/io/dataset.h>
 
 #include <gtest/gtest.h>
@@ -20,8 +20,14 @@ namespace test_uvol_render {
 
 using uvol_test::runCommand;
 
-class RenderTool : public testing::Test {
+class RenderTool : public uvol_test::ToolTest {
 protected:
+  RenderTool()
+      : ToolTest("uvol_render", "out.png")
+  {
+    in_ = folder_ / "in.ply";
+  }
+
   void
   SetUp() override
   {
@@ -30,21 +36,12 @@ protected:
     pcl_uvol::saveDataset(in_, sphere);
   }
 
-  uvol_test::CommandResult
-  run(const std::string& options) const
-  {
-    return runCommand("uvol_render " + in_ + " " + out_ + " " + options);
-  }
-
   std::vector<std::uint8_t>
   pixels() const
   {
     int channels = 0;
     return uvol_test::readPng(out_, channels).color;
   }
-
-  uvol_test::TemporaryFolder folder_;
-  std::string in_ = folder_ / "in.ply", out_ = folder_ / "out.png";
 };
 
 /** Width, height and channels of a PNG file, from its header. */
@@ -70,15 +67,13 @@ struct PngHeader {
 
 TEST_F(RenderTool, WritesAPictureOfTheSizeThatIsAskedFor)
 {
-  auto result = run("-size 320x200");
-  ASSERT_EQ(0, result.exit_code) << result.err;
+  auto result = uvol_test::succeeded(run("-size 320x200"));
   EXPECT_EQ("", result.err);
   PngHeader header(out_);
   EXPECT_EQ(320, header.width);
   EXPECT_EQ(200, header.height);
   EXPECT_EQ(3, header.channels);
-  result = run("-size 64 -background transparent -supersample 2");
-  ASSERT_EQ(0, result.exit_code) << result.err;
+  result = uvol_test::succeeded(run("-size 64 -background transparent -supersample 2"));
   header = PngHeader(out_);
   EXPECT_EQ(64, header.width);
   EXPECT_EQ(64, header.height);
@@ -87,11 +82,10 @@ TEST_F(RenderTool, WritesAPictureOfTheSizeThatIsAskedFor)
 
 TEST_F(RenderTool, ColorsWithoutLightAreThoseOfTheMap)
 {
-  ASSERT_EQ(0,
-            run("-size 128 -supersample 1 -no-shading -color x*0+1 -range 0,2 -no-bar "
-                "-no-antialias "
-                "-smoothing none -colormap gray")
-                .exit_code);
+  uvol_test::succeeded(
+      run("-size 128 -supersample 1 -no-shading -color x*0+1 -range 0,2 -no-bar "
+          "-no-antialias "
+          "-smoothing none -colormap gray"));
   const auto flat = pixels();
   int grey = 0;
   for (std::size_t i = 0; i < flat.size(); i += 4)
@@ -217,10 +211,8 @@ TEST_F(RenderTool, PicturesSayWhereTheyAreFrom)
                      "uvol_render in.ply out.png -size 64 -view right -title 'a b'"));
   EXPECT_NE(std::string::npos, one.find(std::string("Software\0", 9) + "pcl_uvol "));
   const std::string other = folder_ / "other.png";
-  ASSERT_EQ(0,
-            runCommand("uvol_render " + in_ + " " + other +
-                       " -size 64 -view right -title 'a b' -threads 2")
-                .exit_code);
+  uvol_test::runWell("uvol_render " + in_ + " " + other +
+                     " -size 64 -view right -title 'a b' -threads 2");
   EXPECT_TRUE(one == uvol_test::readFile(other));
 
   // The camera gives the same picture again.
@@ -234,8 +226,8 @@ TEST_F(RenderTool, PicturesSayWhereTheyAreFrom)
   const std::string length = bytes.substr(camera - 8, 4);
   const auto size = static_cast<std::size_t>(static_cast<unsigned char>(length[3])) +
                     256u * static_cast<unsigned char>(length[2]);
-  ASSERT_EQ(
-      0, run("-size 90 -exaggerate 1,2,4 " + bytes.substr(begin, size - 7)).exit_code);
+  uvol_test::succeeded(
+      run("-size 90 -exaggerate 1,2,4 " + bytes.substr(begin, size - 7)));
   const auto repeated = pixels();
   ASSERT_EQ(pictured.size(), repeated.size());
   std::size_t different = 0;
@@ -262,10 +254,8 @@ TEST_F(RenderTool, PicturesHaveTheSizeThatTheyArePrintedWith)
         << options;
   }
   const std::string figure = folder_ / "figure.svg";
-  ASSERT_EQ(0,
-            runCommand("uvol_render " + in_ + " " + figure +
-                       " -size 76.2x50.8mm -color normal_z")
-                .exit_code);
+  uvol_test::runWell("uvol_render " + in_ + " " + figure +
+                     " -size 76.2x50.8mm -color normal_z");
   const std::string text = uvol_test::readFile(figure);
   EXPECT_NE(std::string::npos, text.find("width=\"3in\" height=\"2in\""));
   // 7 points, at 300 dots per inch.
@@ -274,8 +264,7 @@ TEST_F(RenderTool, PicturesHaveTheSizeThatTheyArePrintedWith)
 
 TEST_F(RenderTool, OrbitWritesNumberedFrames)
 {
-  const auto result = run("-size 32 -orbit 12");
-  ASSERT_EQ(0, result.exit_code) << result.err;
+  uvol_test::succeeded(run("-size 32 -orbit 12"));
   const auto names = folder_.list();
   ASSERT_EQ(13u, names.size());
   EXPECT_EQ("out_00.png", names[1]);
@@ -304,12 +293,12 @@ TEST_F(RenderTool, OrbitsOfAllViewsGoAboutTheUpwardDirection)
 TEST_F(RenderTool, ReportsValuesThatHaveNoLogarithm)
 {
   for (const char* tool : {"uvol_render ", "uvol_raytrace "}) {
-    const auto result = runCommand(tool + in_ + " " + out_ +
-                                   " -size 60 -view front -no-bar -color z -log");
-    ASSERT_EQ(0, result.exit_code) << result.err;
-    EXPECT_NE(std::string::npos,
-              result.err.find("of 5000 points and have no logarithm"))
-        << result.err;
+    const auto result = uvol_test::runWell(
+        tool + in_ + " " + out_ + " -size 60 -view front -no-bar -color z -log -json");
+    EXPECT_EQ(
+        5000,
+        uvol_test::warnedValues(nlohmann::json::parse(result.out), "no_logarithms")
+            .at("points"));
     // The lower half is grey.
     int gray = 0, colourful = 0;
     const auto picture = pixels();
@@ -326,8 +315,7 @@ TEST_F(RenderTool, ReportsValuesThatHaveNoLogarithm)
 
 TEST_F(RenderTool, ReportNamesBackendAndPasses)
 {
-  const auto result = run("-size 64 -json");
-  ASSERT_EQ(0, result.exit_code) << result.err;
+  const auto result = uvol_test::succeeded(run("-size 64 -json"));
   for (const char* word : {"\"backend\": \"cpu",
                            "\"project\"",
                            "\"fill_background\"",
@@ -342,9 +330,9 @@ TEST_F(RenderTool, PointsWithoutNormalsAreDrawnWithAWarning)
 {
   const std::string bare = folder_ / "bare.csv";
   uvol_test::writeFile(bare, "x,y,z\n0,0,0\n1,0,0\n0,1,0\n1,1,0.1\n0.5,0.5,0\n");
-  const auto result = runCommand("uvol_render " + bare + " " + out_ + " -size 32");
-  EXPECT_EQ(0, result.exit_code) << result.err;
-  EXPECT_NE(std::string::npos, result.err.find("no normals")) << result.err;
+  const auto result =
+      uvol_test::runWell("uvol_render " + bare + " " + out_ + " -size 32 -json");
+  EXPECT_TRUE(uvol_test::hasMessage(result, "estimated_normals")) << result.out;
 }
 
 TEST_F(RenderTool, RefusesWrongCommandLines)
@@ -396,14 +384,12 @@ TEST_F(RenderTool, IsosurfaceDrawsItsResult)
   ASSERT_EQ(0, runCommand("uvol_generate " + samples + " -n 20000").exit_code);
   const std::string extract =
       "uvol_isosurface " + samples + " " + surface + " -png " + out_ + " -size 100x80 ";
-  auto result = runCommand(extract + "-iso 8 -color mean_curvature -view top");
-  ASSERT_EQ(0, result.exit_code) << result.err;
+  auto result = uvol_test::runWell(extract + "-iso 8 -color mean_curvature -view top");
   EXPECT_EQ(100, PngHeader(out_).width);
   EXPECT_EQ(80, PngHeader(out_).height);
   // A surface without points is no failure, but there is nothing to be drawn.
   std::remove(out_.c_str());
-  result = runCommand(extract + "-iso 1e9 -json");
-  EXPECT_EQ(0, result.exit_code) << result.err;
+  result = uvol_test::runWell(extract + "-iso 1e9 -json");
   EXPECT_TRUE(uvol_test::hasMessage(result, "nothing_to_draw")) << result.out;
   EXPECT_EQ((std::vector<std::string>{"in.ply", "out.ply", "samples.pcd"}),
             folder_.list());
@@ -426,9 +412,8 @@ textBetween(const std::string& text,
 
 TEST_F(RenderTool, WritesAWebPageThatNeedsNothingElse)
 {
-  const auto result = runCommand("uvol_render " + in_ + " " + folder_ / "page.html" +
-                                 " -background black -color normal_x");
-  ASSERT_EQ(result.exit_code, 0) << result.err;
+  uvol_test::runWell("uvol_render " + in_ + " " + folder_ / "page.html" +
+                     " -background black -color normal_x");
   const std::string html = uvol_test::readFile(folder_ / "page.html");
   for (const char* const elsewhere : {"http:", "https:", "src=", "import "})
     EXPECT_EQ(html.find(elsewhere), std::string::npos) << elsewhere;
@@ -449,10 +434,10 @@ TEST_F(RenderTool, WritesAWebPageThatNeedsNothingElse)
 
 TEST_F(RenderTool, RefusesOptionsOfPicturesForAWebPage)
 {
-  const auto result =
-      runCommand("uvol_render " + in_ + " " + folder_ / "page.html" + " -size 20x20");
-  EXPECT_EQ(result.exit_code, 2);
-  EXPECT_NE(result.err.find("-size is for pictures"), std::string::npos);
+  uvol_test::expectError(runCommand("uvol_render " + in_ + " " + folder_ / "page.html" +
+                                    " -json -size 20x20"),
+                         "command_line",
+                         "-size");
 }
 
 /** A browser without a window; "" if there is none. */
@@ -474,13 +459,12 @@ TEST_F(RenderTool, WebPageLooksLikeThePictureInABrowser_long)
   ASSERT_EQ(
       runCommand("uvol_render " + in_ + " " + page + " -color normal_z").exit_code, 0);
   ASSERT_EQ(run("-size 600x600 -color normal_z -no-bar").exit_code, 0);
-  const auto result =
-      runCommand(browser +
-                 " --headless --no-sandbox --use-angle=swiftshader"
-                 " --enable-unsafe-swiftshader --hide-scrollbars --window-size=600,600"
-                 " --virtual-time-budget=5000 --user-data-dir=" +
-                 folder_ / "profile" + " --screenshot=" + shot + " file://" + page);
-  ASSERT_EQ(result.exit_code, 0) << result.err;
+  uvol_test::runWell(
+      browser +
+      " --headless --no-sandbox --use-angle=swiftshader"
+      " --enable-unsafe-swiftshader --hide-scrollbars --window-size=600,600"
+      " --virtual-time-budget=5000 --user-data-dir=" +
+      folder_ / "profile" + " --screenshot=" + shot + " file://" + page);
   int channels = 0;
   const pcl_uvol::Image picture = uvol_test::readPng(out_, channels),
                         seen = uvol_test::readPng(shot, channels);

@@ -26,8 +26,14 @@ using uvol_test::runCommand;
 constexpr std::size_t points = 3000;
 
 /** A unit sphere far from the origin, each point with its index and a colour. */
-class SplatsTool : public testing::Test {
+class SplatsTool : public uvol_test::ToolTest {
 protected:
+  SplatsTool()
+      : ToolTest("uvol_splats", "out.ply")
+  {
+    in_ = folder_ / "in.ply";
+  }
+
   void
   SetUp() override
   {
@@ -46,12 +52,6 @@ protected:
     pcl_uvol::saveDataset(in_, dataset);
   }
 
-  uvol_test::CommandResult
-  run(const std::string& options) const
-  {
-    return runCommand("uvol_splats " + in_ + " " + out_ + " " + options);
-  }
-
   /** Splats of a file, which holds good ones only. */
   static std::size_t
   splatsIn(const std::string& path)
@@ -68,27 +68,12 @@ protected:
   std::size_t
   countWith(const std::string& options) const
   {
-    const auto result = run(options);
-    EXPECT_EQ(result.exit_code, 0) << result.err;
+    uvol_test::succeeded(run(options));
     return splatsIn(out_);
-  }
-
-  /** That exit code, a sentence with that text, and no file but the input. */
-  void
-  expectFailure(const uvol_test::CommandResult& result,
-                int exit_code,
-                const std::string& text) const
-  {
-    EXPECT_EQ(result.exit_code, exit_code) << result.err;
-    EXPECT_NE(result.err.find(text), std::string::npos) << result.err;
-    EXPECT_LE(std::count(result.err.begin(), result.err.end(), '\n'), 2) << result.err;
-    EXPECT_EQ(folder_.list().size(), 1u) << text;
   }
 
   static constexpr double far_ = 5e6;
   uvol_test::SurfaceCloudPtr sphere_ = uvol_test::makeSphere(points, 1);
-  uvol_test::TemporaryFolder folder_;
-  std::string in_ = folder_ / "in.ply", out_ = folder_ / "out.ply";
 };
 
 TEST_F(SplatsTool, CoversPointsAndCarriesTheirFieldsAlong)
@@ -136,9 +121,8 @@ TEST_F(SplatsTool, WritesWhatCanBeReadAgain)
   const std::size_t expected = countWith("-delta-abs 0.01");
   for (const char* name : {"a.ply", "a.pcd", "a.csv", "a.vtp"})
     for (const char* option : {"", " -ascii"}) {
-      const auto result = runCommand("uvol_splats " + in_ + " " + (folder_ / name) +
-                                     " -delta-abs 0.01" + option);
-      ASSERT_EQ(result.exit_code, 0) << result.err;
+      uvol_test::runWell("uvol_splats " + in_ + " " + (folder_ / name) +
+                         " -delta-abs 0.01" + option);
       EXPECT_EQ(splatsIn(folder_ / name), expected) << name << option;
     }
 }
@@ -151,18 +135,14 @@ TEST_F(SplatsTool, SaysThatNormalsAreEstimated)
            std::to_string(point.z) + '\n';
   uvol_test::writeFile(folder_ / "in.csv", csv);
   const auto result =
-      runCommand("uvol_splats " + (folder_ / "in.csv") + " " + out_ + " -delta 0.005");
-  ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_NE((result.out + result.err).find("no normals"), std::string::npos);
-  const auto with_normals = run("-delta 0.005");
-  EXPECT_EQ((with_normals.out + with_normals.err).find("no normals"),
-            std::string::npos);
+      uvol_test::runWell("uvol_splats " + (folder_ / "in.csv") + " " + out_ + " -json");
+  EXPECT_TRUE(uvol_test::hasMessage(result, "estimated_normals")) << result.out;
+  EXPECT_FALSE(uvol_test::hasMessage(run("-json"), "estimated_normals"));
 }
 
 TEST_F(SplatsTool, ListsItsOptions)
 {
-  const auto result = run("-h");
-  EXPECT_EQ(result.exit_code, 0);
+  const auto result = uvol_test::succeeded(run("-h"));
   for (const char* option : {"-delta ", "-delta-abs ", "-lambda ", "-ascii "})
     EXPECT_NE(result.out.find(option), std::string::npos) << option;
   EXPECT_EQ(folder_.list().size(), 1u);
@@ -170,41 +150,40 @@ TEST_F(SplatsTool, ListsItsOptions)
 
 TEST_F(SplatsTool, RefusesAWrongCommandLine)
 {
-  expectFailure(run("-delta 0.1 -delta-abs 0.1"), 2, "give one of them");
-  for (const char* option : {"-delta", "-delta-abs"})
-    for (const char* value : {"0", "-1", "nan", "inf", "1e-3m", ""})
-      expectFailure(run(std::string(option) + " " + value), 2, option);
-  expectFailure(run("-delta 1.5"), 2, "-delta");
-  for (const char* value : {"-0.1", "1.1", "nan", "x"})
-    expectFailure(run(std::string("-lambda ") + value), 2, "-lambda");
-  expectFailure(run("-wat"), 2, "-wat");
-  expectFailure(run("extra"), 2, "extra");
-  expectFailure(runCommand("uvol_splats " + in_), 2, "out");
+  for (const std::string value : {"0", "-1", "nan", "inf", "1e-3m", "''"})
+    expectUsageErrors("", {"-delta " + value, "-delta-abs " + value});
+  for (const std::string value : {"-0.1", "1.1", "nan", "x"})
+    expectUsageErrors("", {"-lambda " + value});
+  expectUsageErrors("", {"-delta 1.5", "-delta-abs 0.1 -delta 0.1", "-wat", "extra"});
+  uvol_test::expectError(
+      runCommand("uvol_splats -json " + in_), "command_line", "<out>");
 }
 
 TEST_F(SplatsTool, RefusesFilesThatItCannotCover)
 {
-  const std::string missing = folder_ / "missing.ply";
-  expectFailure(runCommand("uvol_splats " + missing + " " + out_), 1, "missing.ply");
-  expectFailure(
-      runCommand("uvol_splats " + in_ + " " + (folder_ / "out.what")), 1, "what");
+  const std::string samples = in_;
+  in_ = folder_ / "missing.ply";
+  expectError("", "no_such_file", "missing.ply");
+  in_ = samples;
+  out_ = folder_ / "out.what";
+  expectError("", "unwritten_ending", "out.what");
+  out_ = folder_ / "out.ply";
   uvol_test::writeFile(in_,
                        "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\n"
                        "property float y\nproperty float z\nend_header\n");
-  expectFailure(run(""), 1, "no points");
+  expectError("", "no_points");
   uvol_test::writeFile(in_,
                        "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\n"
                        "property float y\nproperty float z\nproperty float nx\n"
                        "property float ny\nproperty float nz\nend_header\n"
                        "1 2 3 0 0 1\n1 2 3 0 0 1\n");
-  expectFailure(run(""), 1, "one position");
+  expectError("", "splats_without_extent");
   EXPECT_EQ(countWith("-delta-abs 0.1"), 1u);
 }
 
 TEST_F(SplatsTool, GaussiansLieInThePlanesOfTheSplats)
 {
-  const auto result = run("-gaussians -threads 1");
-  ASSERT_EQ(0, result.exit_code) << result.err;
+  const auto result = uvol_test::succeeded(run("-gaussians -threads 1"));
   EXPECT_NE(std::string::npos, result.err.find("origin")) << result.err;
   const std::string bytes = uvol_test::readFile(out_);
   std::size_t at = 0; // viewers look for these in the header
@@ -251,9 +230,7 @@ TEST_F(SplatsTool, GaussiansLieInThePlanesOfTheSplats)
     EXPECT_NEAR(-0.5 / 0.28209479, blue[i], 1e-4);
   }
   const std::string other = folder_ / "other.ply";
-  ASSERT_EQ(0,
-            runCommand("uvol_splats " + in_ + " " + other + " -gaussians -threads 3")
-                .exit_code);
+  uvol_test::runWell("uvol_splats " + in_ + " " + other + " -gaussians -threads 3");
   EXPECT_TRUE(bytes == uvol_test::readFile(other));
   ASSERT_EQ(0, run("-gaussians -color curvature").exit_code);
   EXPECT_TRUE(bytes != uvol_test::readFile(out_));

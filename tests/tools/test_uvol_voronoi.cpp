@@ -149,8 +149,7 @@ TEST_F(VoronoiTool, DrawsSlices)
 {
   uvol_test::writeFile(in_, randomCsv(50));
   const auto draw = [&](const std::string& options) {
-    const auto result = run("-grid 30x15x10 -png " + picture_ + " " + options);
-    EXPECT_EQ(0, result.exit_code) << result.err;
+    uvol_test::succeeded(run("-grid 30x15x10 -png " + picture_ + " " + options));
     int channels = 0;
     return uvol_test::readPng(picture_, channels);
   };
@@ -169,8 +168,7 @@ TEST_F(VoronoiTool, PrintsCountsAndShape)
 {
   const auto text = run("-grid 4");
   EXPECT_NE(std::string::npos, text.out.find("4 x 4 x 4 cells of 1 x 1 x 1"));
-  const auto json = run("-grid 4 -json");
-  ASSERT_EQ(0, json.exit_code) << json.err;
+  const auto json = uvol_test::succeeded(run("-grid 4 -json"));
   EXPECT_EQ('{', json.out.front());
   for (const char* part : {"\"points\": 5",
                            "\"non_finite\": 1",
@@ -186,8 +184,7 @@ TEST_F(VoronoiTool, SameBytesForAnyNumberOfThreads)
   uvol_test::writeFile(in_, randomCsv(3000));
   std::string file, picture;
   for (const char* threads : {"1", "2", "3"}) {
-    const auto result = run("-grid 60 -png " + picture_ + " -threads " + threads);
-    ASSERT_EQ(0, result.exit_code) << result.err;
+    uvol_test::succeeded(run("-grid 60 -png " + picture_ + " -threads " + threads));
     if (file.empty()) {
       file = readFile(out_);
       picture = readFile(picture_);
@@ -225,49 +222,49 @@ TEST_F(VoronoiTool, RefusesOtherGrids)
                            "-3",
                            "'5 '",
                            "''"})
-    expectFailure(std::string("-grid ") + grid, 2, "-grid");
+    expectError(std::string("-grid ") + grid, "command_line", "-grid");
 }
 
 TEST_F(VoronoiTool, RefusesGridsThatDoNotFit)
 {
   expectError("-grid 16384", "not_enough_memory", "53 TB");
   expectError("-grid 16384x16384x16384", "not_enough_memory", "53 TB");
-  expectFailure("-grid 16384 -margin 1000", 1, "16384");
+  expectError("-grid 16384 -margin 1000", "grid_cells_out_of_range", "16384");
 }
 
 TEST_F(VoronoiTool, RefusesWrongCommandLines)
 {
-  expectFailure("-slices 3", 2, "-png");
-  expectFailure("-axis x", 2, "-png");
-  expectFailure("-grid 4x4x4 -margin 2", 2, "-margin");
-  expectFailure("-margin 1001", 2, "-margin");
-  expectFailure("-margin -1", 2, "-margin");
-  expectFailure("-method magic", 2, "magic");
-  expectFailure("-backend cuda", 2, "cuda");
-  expectFailure("-method cones -device 0", 2, "-backend egl");
-  expectFailure("-method cones -backend egl -device 999", 1, "graphics card 999");
-  expectFailure("-inner-radius 0.5", 2, "-inner-radius");
-  expectFailure("-triangles 2", 2, "-triangles");
-  expectFailure("-png " + picture_ + " -slices 0", 2, "-slices");
-  expectFailure("-png " + picture_ + " -axis w", 2, "-axis");
-  expectFailure("-png " + (folder_ / "out.jpg"), 1, ".png");
-  expectFailure("-wat", 2, "-wat");
-  expectFailure("more", 2, "more");
+  expectUsageErrors("",
+                    {"-slices 3",
+                     "-axis x",
+                     "-margin 2 -grid 4x4x4",
+                     "-margin 1001",
+                     "-margin -1",
+                     "-method magic",
+                     "-backend cuda",
+                     "-inner-radius 0.5",
+                     "-triangles 2",
+                     "-wat",
+                     "more"});
+  expectUsageErrors("-method cones ", {"-device 0"});
+  expectUsageErrors("-png " + picture_ + " ", {"-slices 0", "-axis w"});
+  expectError("-method cones -backend egl -device 999", "egl_without_context", "999");
+  expectError("-png " + (folder_ / "out.jpg"), "unwritten_ending", ".png");
 }
 
 TEST_F(VoronoiTool, RefusesOtherFiles)
 {
   out_ = folder_ / "out.vtk";
-  expectFailure("", 1, ".vti");
+  expectError("", "unwritten_ending", ".vti");
   out_ = folder_ / "no/such/out.vti";
-  expectFailure("", 1, "out.vti");
+  expectError("", "no_folder", "out.vti");
   out_ = folder_ / "out.vti";
   uvol_test::writeFile(in_, "x,y,z\nnan,0,0\n0,nan,0\n");
-  expectFailure("", 1, "finite");
+  expectError("", "input_without_point");
   uvol_test::writeFile(in_, "x,y,z\n");
   expectError("", "no_points");
   in_ = folder_ / "missing.csv";
-  expectFailure("", 1, "missing.csv");
+  expectError("", "no_such_file", "missing.csv");
 }
 
 } // namespace test_uvol_voronoi

@@ -96,11 +96,10 @@ TEST_F(UvolViewer, PicturesShowWhatTheWindowShowsWhenABarHasCome)
     std::string camera = testing::internal::GetCapturedStdout();
     camera.pop_back(); // the end of the line
     const std::string number = is_near ? "2" : "1";
-    const auto result =
-        runCommand("uvol_render uvol_viewer_" + number +
-                   ".ply drawn.png -color mean_curvature -size " +
-                   std::to_string(width) + "x" + std::to_string(height) + " " + camera);
-    ASSERT_EQ(0, result.exit_code) << result.err;
+    uvol_test::runWell("uvol_render uvol_viewer_" + number +
+                       ".ply drawn.png -color mean_curvature -size " +
+                       std::to_string(width) + "x" + std::to_string(height) + " " +
+                       camera);
     constexpr int lower = (height - height * 78 / 100) / 2; // there is no slider
     for (const std::string& name :
          {"uvol_viewer_" + number + ".png", std::string("drawn.png")})

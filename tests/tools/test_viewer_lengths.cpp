@@ -93,14 +93,13 @@ TEST_F(UvolViewer, StretchesWhatItShowsAndNotTheData)
   pcl_uvol::saveDataset("volume.ply", volume);
   const std::string look = " -exaggerate 1,1,3 -view front -size 240x180 ";
   auto result =
-      runCommand("uvol_viewer volume.ply -field intensity -iso 0.5 -screenshot "
-                 "shown.png" +
-                 look);
-  ASSERT_EQ(0, result.exit_code) << result.err;
-  result = runCommand("uvol_isosurface volume.ply half.ply -field intensity -iso 0.5 "
-                      "-png drawn.png" +
-                      look);
-  ASSERT_EQ(0, result.exit_code) << result.err;
+      uvol_test::runWell("uvol_viewer volume.ply -field intensity -iso 0.5 -screenshot "
+                         "shown.png" +
+                         look);
+  result = uvol_test::runWell(
+      "uvol_isosurface volume.ply half.ply -field intensity -iso 0.5 "
+      "-png drawn.png" +
+      look);
   const auto [left, right] = columnsOf(read("drawn.png"));
   const auto [shown_left, shown_right] = columnsOf(read("shown.png"));
   EXPECT_NEAR(left + right, shown_left + shown_right, 2);

@@ -2,6 +2,8 @@
 // The library for VTK, HDF5 and NetCDF: what needs it says so if it cannot be loaded,
 // and all else works without it.
 #include "support/environment.h"
+#include "tools/json_warnings.h"
+#include "tools/sentences.h"
 
 #include <gtest/gtest.h>
 
@@ -16,8 +18,7 @@ TEST(VtkLibrary, IsLoadedOnlyForFilesThatNeedIt)
 {
   const uvol_test::TemporaryFolder folder;
   const std::string there = "cd '" + folder / "" + "' && ";
-  ASSERT_EQ(0,
-            runCommand(there + "uvol_generate in.pcd -field torus -n 3000").exit_code);
+  uvol_test::runWell(there + "uvol_generate in.pcd -field torus -n 3000");
   uvol_test::writeFile(folder / "in.vti", "<VTKFile");
   // A damaged library is found before the right one.
   uvol_test::writeFile(folder / "libpcl_uvol_io_vtk.so.0.2", "");
@@ -27,14 +28,9 @@ TEST(VtkLibrary, IsLoadedOnlyForFilesThatNeedIt)
     EXPECT_EQ(0, runCommand(without + line).exit_code) << line;
   for (const char* const line :
        {"uvol_isosurface in.pcd out.vtp -iso 0.1", "uvol_generate in.vti in.pcd"}) {
-    const auto result = runCommand(without + line);
-    EXPECT_EQ(1, result.exit_code) << line;
-    EXPECT_NE(
-        std::string::npos,
-        result.err.find("The library for VTK, HDF5, NetCDF and text in images could "
-                        "not be loaded: it is not next to libpcl_uvol_io.so, or "
-                        "memory is exhausted.\n"))
-        << result.err;
+    SCOPED_TRACE(line);
+    uvol_test::expectError(runCommand(without + line + " -json"),
+                           "vtk_library_not_loaded");
   }
   EXPECT_EQ((std::vector<std::string>{
                 "in.pcd", "in.vti", "libpcl_uvol_io_vtk.so.0.2", "out.ply"}),

@@ -2,6 +2,7 @@
 // What a tool leaves where files have names from the start, where it is killed, and
 // where its output is one of its inputs.
 #include "support/environment.h"
+#include "tools/json_warnings.h"
 
 #include <gtest/gtest.h>
 
@@ -48,8 +49,7 @@ protected:
         " uvol_convert '" + in_ + "' '" + (folder_ / "out.npz") + "'";
     const std::string counts = folder_ / "counts",
                       library = "LD_PRELOAD=" PCL_UVOL_FAULTS;
-    ASSERT_EQ(0,
-              runCommand(library + " UVOL_FAULTS=count=" + counts + command).exit_code);
+    uvol_test::runWell(library + " UVOL_FAULTS=count=" + counts + command);
     const std::string text = readFile(counts), call = "malloc ";
     const int calls = std::stoi(text.substr(text.find(call) + call.size()));
     ASSERT_GT(calls, 100);
@@ -197,8 +197,7 @@ TEST(FilesOfTools, DanglingLinksAreFollowed)
   const uvol_test::TemporaryFolder folder;
   fs::create_directory(folder / "there");
   fs::create_symlink("there/new.csv", folder / "link.csv");
-  ASSERT_EQ(0,
-            runCommand("uvol_generate '" + (folder / "link.csv") + "' -n 5").exit_code);
+  uvol_test::runWell("uvol_generate '" + (folder / "link.csv") + "' -n 5");
   EXPECT_TRUE(fs::is_symlink(folder / "link.csv"));
   EXPECT_TRUE(fs::is_regular_file(folder / "there/new.csv"));
 }

@@ -62,50 +62,33 @@ protected:
     return pcl_uvol::loadDataset(out_);
   }
 
-  /** That exit code, one sentence with that text, below which a wrong expression may be
-   * marked, and no file but the input. */
-  void
-  expectFailure(const std::string& options,
-                int exit_code,
-                const std::string& text) const
-  {
-    const auto result = run(options);
-    EXPECT_NE(std::string::npos, result.err.find(text))
-        << options << ": " << result.err;
-    expectOneSentence(options, exit_code, result);
-  }
-
-  /** The same for an error of the library, which has a code.
-   * \param value that its text has */
+  /** That error, and no new file: see expectError() of sentences.h. */
   void
   expectError(const std::string& options,
               const std::string& code,
               const std::string& value = "") const
   {
+    SCOPED_TRACE(options);
+    const auto before = folder_.list();
     const auto result = run(options + " -json");
-    EXPECT_TRUE(hasMessage(result, code)) << options << ": " << result.err;
-    EXPECT_NE(std::string::npos, result.err.find(value))
-        << options << ": " << result.err;
-    expectOneSentence(options, 1, result);
+    uvol_test::expectError(result, code, value);
+    expectSentences(tool_.substr(tool_.rfind('/') + 1), result);
+    EXPECT_EQ(before, folder_.list());
+  }
+
+  /** Wrong command lines, each of which ends with one of those: the error names its
+   * first word. */
+  void
+  expectUsageErrors(const std::string& options,
+                    const std::vector<std::string>& wrong) const
+  {
+    for (const std::string& end : wrong)
+      expectError(options + end, "command_line", end.substr(0, end.find(' ')));
   }
 
   const std::string tool_;
   TemporaryFolder folder_;
   std::string in_ = folder_ / "in.csv", out_;
-
-private:
-  void
-  expectOneSentence(const std::string& options,
-                    int exit_code,
-                    const CommandResult& result) const
-  {
-    EXPECT_EQ(exit_code, result.exit_code) << options << ": " << result.err;
-    const bool is_marked = result.err.find("\n  ") != std::string::npos;
-    EXPECT_EQ(is_marked ? 3 : 1, std::count(result.err.begin(), result.err.end(), '\n'))
-        << result.err;
-    expectSentences(tool_.substr(tool_.rfind('/') + 1), result);
-    EXPECT_EQ(std::vector<std::string>{"in.csv"}, folder_.list()) << options;
-  }
 };
 
 /** Command lines in a folder of their own. */
@@ -117,6 +100,18 @@ protected:
   {
     return runCommand("cd '" + (folder_ / "") + "' && " PCL_UVOL_TOOL_DIR "/uvol_" +
                       arguments);
+  }
+
+  /** That error, and no new file: see expectError() of sentences.h. */
+  void
+  expectError(const std::string& arguments,
+              const std::string& code,
+              const std::string& value = "") const
+  {
+    SCOPED_TRACE(arguments);
+    const auto before = folder_.list();
+    uvol_test::expectError(runTool(arguments + " -json"), code, value);
+    EXPECT_EQ(before, folder_.list());
   }
 
   void

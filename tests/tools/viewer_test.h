@@ -6,6 +6,7 @@
 #include "support/png.h"
 #include "support/surfaces.h"
 #include "support/virtual_display.h"
+#include "tools/json_warnings.h"
 #include "viewer/viewer_window.h"
 #include <pcl_uvol/io/dataset.h>
 
