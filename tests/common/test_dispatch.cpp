@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/dispatch.h"
 #include "support/environment.h"
+#include "tools/sentences.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <gtest/gtest.h>
@@ -30,11 +31,9 @@ TEST(Dispatch, ToolsSayWhatIsWrong)
   ASSERT_EQ(0, uvol_test::runCommand("uvol_generate " + in + " -n 1000").exit_code);
   setenv("PCL_UVOL_SIMD", "fast", 1);
   const auto result = uvol_test::runCommand("uvol_isosurface " + in + " " +
-                                            (folder / "out.ply") + " -iso 3");
+                                            (folder / "out.ply") + " -iso 3 -json");
   unsetenv("PCL_UVOL_SIMD");
-  EXPECT_EQ(1, result.exit_code);
-  EXPECT_NE(std::string::npos, result.err.find("PCL_UVOL_SIMD is 'fast'"))
-      << result.err;
+  uvol_test::expectError(result, "unknown_simd_level", "fast");
   EXPECT_EQ(1u, folder.list().size());
 }
 

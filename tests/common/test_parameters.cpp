@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Parameters of all stages: they survive JSON, and equality sees every member.
+#include "support/messages.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/parameters.h>
 #include <pcl_uvol/derivatives/gradient_estimation.h>
@@ -16,6 +17,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <tuple>
 #include <type_traits>
 #include <vector>
 
@@ -25,6 +27,7 @@ using pcl_uvol::InvalidArgument;
 using pcl_uvol::IsosurfaceParameters;
 using pcl_uvol::IsosurfacePipelineParameters;
 using pcl_uvol::LevelSetParameters;
+using pcl_uvol::Message;
 
 /** Another value than before. */
 template <typename T>
@@ -115,44 +118,45 @@ TYPED_TEST(StageParameters, RefuseUnknownNamesAndWhatIsNoJson)
     EXPECT_THROW(TypeParam::fromJson(text), InvalidArgument) << text;
 }
 
-std::string
-refusal(const std::string& text)
-{
-  try {
-    IsosurfacePipelineParameters::fromJson(text);
-  }
-  catch (const InvalidArgument& error) {
-    return error.message();
-  }
-  return "";
-}
-
 TEST(Parameters, NameWhatIsWrongInJson)
 {
-  EXPECT_EQ("The parameter isosurface.outside is \"left\": it must be one of "
-            "lower, higher.",
-            refusal(R"({"isosurface": {"outside": "left"}})"));
-  EXPECT_EQ("The parameter isosurface.scale is [1,2]: it must be a list of 3.",
-            refusal(R"({"isosurface": {"scale": [1, 2]}})"));
-  EXPECT_EQ("The parameter normal_neighbors is -3: it must be a whole number "
-            "from 0.",
-            refusal(R"({"normal_neighbors": -3})"));
-  try {
-    pcl_uvol::MembershipParameters::fromJson(R"({"cluster": 2147483648})");
-    ADD_FAILURE() << "no int";
-  }
-  catch (const InvalidArgument& error) {
-    EXPECT_EQ("The parameter cluster is 2147483648: it must be a whole number.",
-              error.message());
-  }
+  const auto refusal = [](const char* text) {
+    return uvol_test::thrownBy<InvalidArgument>(
+        [text] { IsosurfacePipelineParameters::fromJson(text); });
+  };
+  for (const auto& [text, name, value, expected] :
+       {std::tuple(R"({"isosurface": {"outside": "left"}})",
+                   "isosurface.outside",
+                   "\"left\"",
+                   "one of lower, higher"),
+        std::tuple(R"({"isosurface": {"scale": [1, 2]}})",
+                   "isosurface.scale",
+                   "[1,2]",
+                   "a list of 3"),
+        std::tuple(R"({"normal_neighbors": -3})",
+                   "normal_neighbors",
+                   "-3",
+                   "a whole number from 0"),
+        std::tuple(R"({"smooth": 1})", "smooth", "1", "true or false"),
+        std::tuple(R"({"isosurface": {"voronoi_cells": 4294967296}})",
+                   "isosurface.voronoi_cells",
+                   "4294967296",
+                   "a whole number from 0")})
+    EXPECT_EQ(Message("wrong_parameter",
+                      {{"name", name}, {"value", value}, {"expected", expected}}),
+              refusal(text));
+  EXPECT_EQ(Message("wrong_parameter",
+                    {{"name", "cluster"},
+                     {"value", "2147483648"},
+                     {"expected", "a whole number"}}),
+            uvol_test::thrownBy<InvalidArgument>([] {
+              pcl_uvol::MembershipParameters::fromJson(R"({"cluster": 2147483648})");
+            }));
   EXPECT_EQ(-1, pcl_uvol::MembershipParameters::fromJson(R"({"cluster": -1})").cluster);
-  EXPECT_EQ("The parameter smooth is 1: it must be true or false.",
-            refusal(R"({"smooth": 1})"));
-  EXPECT_EQ("The parameter isosurface.voronoi_cells is 4294967296: it must be a "
-            "whole number from 0.",
-            refusal(R"({"isosurface": {"voronoi_cells": 4294967296}})"));
-  EXPECT_NE(refusal(R"({"isosurfaces": {}})").find("are isosurface, "),
-            std::string::npos);
+  const Message unknown = refusal(R"({"isosurfaces": {}})");
+  EXPECT_EQ("unknown_parameter", unknown.code);
+  EXPECT_EQ("isosurface", uvol_test::wordOf(unknown, "similar"));
+  EXPECT_EQ(0u, uvol_test::wordOf(unknown, "names").find("isosurface, "));
 }
 
 TEST(Parameters, ReplaceWhatJsonCannotHold)

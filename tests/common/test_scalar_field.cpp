@@ -3,7 +3,10 @@
 #include "io/random_dataset.h"
 #include <pcl_uvol/common/exceptions.h>
 
+#include <tuple>
+
 using pcl_uvol::InvalidArgument;
+using pcl_uvol::Message;
 using pcl_uvol::ScalarField;
 using namespace uvol_test;
 
@@ -15,11 +18,11 @@ defaultOf(const std::vector<FieldSpec>& specs)
   return ScalarField::defaultName(makeDataset(specs, 0, 1).cloud.fields);
 }
 
-std::string
+Message
 errorOf(const std::vector<FieldSpec>& specs, const std::string& expression)
 {
   const auto fields = makeDataset(specs, 0, 1).cloud.fields;
-  return messageOf<InvalidArgument>([&] { ScalarField(fields, expression); });
+  return uvol_test::thrownBy<InvalidArgument>([&] { ScalarField(fields, expression); });
 }
 
 const std::vector<FieldSpec> vectors{{"vel", Type::FLOAT32, 3},
@@ -85,11 +88,13 @@ TEST(ScalarField, ExactNamesComeFirst)
 
 TEST(ScalarField, ErrorsListTheFields)
 {
-  EXPECT_EQ(errorOf({{"a", Type::INT16}}, "b"),
-            "There is no field 'b'; the fields are x (float32), y (float32), z "
-            "(float32), a (int16).");
-  EXPECT_NE(errorOf(vectors, "vel").find("|vel|"), std::string::npos);
-  EXPECT_NE(errorOf(vectors, "vel[3]").find("0 to 2"), std::string::npos);
+  const Message unknown = errorOf({{"a", Type::INT16}}, "b");
+  EXPECT_EQ("b", uvol_test::wordOf(unknown, "field"));
+  EXPECT_EQ("x (float32), y (float32), z (float32), a (int16)",
+            uvol_test::wordOf(unknown, "fields"));
+  EXPECT_NE(errorOf(vectors, "vel").text().find("|vel|"), std::string::npos);
+  EXPECT_EQ(Message("component_too_large", {{"field", "vel[3]"}, {"last", 2}}),
+            errorOf(vectors, "vel[3]"));
   for (const char* const wrong : {"",
                                   "[0]",
                                   "vel[]",
@@ -101,7 +106,7 @@ TEST(ScalarField, ErrorsListTheFields)
                                   "|,|",
                                   "|id,|",
                                   "|q|"})
-    EXPECT_FALSE(errorOf(vectors, wrong).empty()) << wrong;
+    EXPECT_NE("", errorOf(vectors, wrong).code) << wrong;
 }
 
 TEST(ScalarField, Default)
@@ -114,16 +119,19 @@ TEST(ScalarField, Default)
                        {"alpha", Type::UINT8},
                        {"density", Type::FLOAT64}}),
             "density");
-  EXPECT_EQ(messageOf<InvalidArgument>([] {
-              defaultOf({{"a", Type::INT16}, {"b", Type::INT16}});
-            }),
-            "Name one of the scalar fields: a (int16), b (int16).");
-  EXPECT_NE(messageOf<InvalidArgument>([] { defaultOf({}); }).find("no scalar field"),
-            std::string::npos);
-  EXPECT_NE(messageOf<InvalidArgument>([] {
-              defaultOf({{"v", Type::FLOAT32, 3}});
-            }).find("v (float32 x 3)"),
-            std::string::npos);
+  for (const auto& [specs, code, fields] :
+       {std::tuple(std::vector<FieldSpec>{{"a", Type::INT16}, {"b", Type::INT16}},
+                   "several_scalar_fields",
+                   "a (int16), b (int16)"),
+        std::tuple(std::vector<FieldSpec>{}, "no_scalar_field", ""),
+        std::tuple(std::vector<FieldSpec>{{"v", Type::FLOAT32, 3}},
+                   "several_scalar_fields",
+                   "v (float32 x 3)")}) {
+    const Message error =
+        uvol_test::thrownBy<InvalidArgument>([&, &given = specs] { defaultOf(given); });
+    EXPECT_EQ(code, error.code);
+    EXPECT_NE(std::string::npos, uvol_test::wordOf(error, "fields").find(fields));
+  }
 }
 
 } // namespace test_scalar_field

@@ -55,29 +55,11 @@ line(std::size_t count, double x, double value = 0.0, bool in_double = false)
   return dataset;
 }
 
-std::string
-complaintOf(const std::vector<std::string>& paths, std::size_t ranks)
+/** The error of some rank, without a code for files that are read. */
+Message
+refusalOf(const std::vector<std::string>& paths, std::size_t ranks = 1)
 {
-  try {
-    Parts(paths, ranks);
-  }
-  catch (const std::exception& error) {
-    return error.what();
-  }
-  return "";
-}
-
-/** The code of the error, "" for files that are read. */
-std::string
-refusalOf(const std::vector<std::string>& paths)
-{
-  return codeOf<Exception>([&] { Parts(paths, 1); });
-}
-
-void
-expectComplaint(const std::string& text, const std::string& message)
-{
-  EXPECT_NE(std::string::npos, message.find(text)) << message;
+  return thrownBy<Exception>([&] { Parts(paths, ranks); });
 }
 
 TEST(RankFiles, PartOneFileByItsPoints)
@@ -234,10 +216,11 @@ TEST(RankFiles, RefuseNamesInOnePieceAndNumbersInAnother)
   writeFile(folder / "a.csv", "x,y,z,hole\n0,0,0,1\n1,0,0,34873\n");
   writeFile(folder / "b.csv", "x,y,z,hole\n2,0,0,A-117\n3,0,0,34873\n4,0,0,B\n");
   for (const std::size_t ranks : {1, 2, 3})
-    expectComplaint("The field 'hole' contains names in the piece '" +
-                        folder / "b.csv" + "' and numbers in '" + folder / "a.csv" +
-                        "'. Try: join",
-                    complaintOf({folder / "a.csv", folder / "b.csv"}, ranks));
+    EXPECT_EQ(Message("names_in_one_piece",
+                      {{"field", "hole"},
+                       {"path", folder / "b.csv"},
+                       {"other", folder / "a.csv"}}),
+              refusalOf({folder / "a.csv", folder / "b.csv"}, ranks));
 }
 
 TEST(RankFiles, RefuseWhatDoesNotFitTogether)
@@ -247,16 +230,19 @@ TEST(RankFiles, RefuseWhatDoesNotFitTogether)
   Dataset other = line(3, 5.0);
   setField(other, "label", std::vector<std::int32_t>(3));
   saveDataset(folder / "in_1.vtp", other);
-  for (const std::size_t ranks : {1, 2, 5})
-    expectComplaint("have different fields: none and label (int32). Try: write",
-                    complaintOf({folder / "in_*.vtp"}, ranks));
-  saveDataset(folder / "none.vtp", line(0, 0.0));
-  expectComplaint("none.vtp has no points.", complaintOf({folder / "none.vtp"}, 2));
-  expectComplaint("None of the 2 pieces has points.",
-                  complaintOf({folder / "none.vtp", folder / "none.vtp"}, 2));
-  saveDataset(folder / "none.pcd", line(0, 0.0));
-  expectComplaint("none.pcd has no points.", complaintOf({folder / "none.pcd"}, 2));
-  EXPECT_EQ("no_matching_file", refusalOf({folder / "else_*.vtp"}));
+  for (const std::size_t ranks : {1, 2, 5}) {
+    const Message refusal = refusalOf({folder / "in_*.vtp"}, ranks);
+    EXPECT_EQ("pieces_of_other_fields", refusal.code);
+    EXPECT_EQ("none", wordOf(refusal, "fields"));
+    EXPECT_EQ("label (int32)", wordOf(refusal, "other_fields"));
+  }
+  for (const std::string& path : {folder / "none.vtp", folder / "none.pcd"}) {
+    saveDataset(path, line(0, 0.0));
+    EXPECT_EQ(Message("no_points", {{"path", path}}), refusalOf({path}, 2));
+  }
+  EXPECT_EQ(Message("pieces_without_points", {{"pieces", 2}}),
+            refusalOf({folder / "none.vtp", folder / "none.vtp"}, 2));
+  EXPECT_EQ("no_matching_file", refusalOf({folder / "else_*.vtp"}).code);
 }
 
 TEST(RankFiles, RefuseDamagedLists)
@@ -268,21 +254,22 @@ TEST(RankFiles, RefuseDamagedLists)
   const std::string list = readFile(folder / "out.pvtp");
   const std::string bad = folder / "bad.pvtp";
   writeFile(bad, list.substr(0, list.size() / 2));
-  EXPECT_EQ("truncated_part", refusalOf({bad}));
+  EXPECT_EQ("truncated_part", refusalOf({bad}).code);
   for (const std::string& text :
        {std::string("no XML"), std::string("<VTKFile type=\"PPolyData\"/>")}) {
     writeFile(bad, text);
-    EXPECT_EQ("not_format", refusalOf({bad}));
+    EXPECT_EQ("not_format", refusalOf({bad}).code);
   }
   writeFile(bad, "<VTKFile><PPolyData><Piece/></PPolyData></VTKFile>");
-  EXPECT_EQ("missing_part", refusalOf({bad}));
+  EXPECT_EQ("missing_part", refusalOf({bad}).code);
   writeFile(bad, "<VTKFile><PPolyData/></VTKFile>");
-  EXPECT_EQ("nothing_inside", refusalOf({bad}));
+  EXPECT_EQ("nothing_inside", refusalOf({bad}).code);
   writeFile(bad, "");
-  EXPECT_NE("", complaintOf({bad}, 1));
+  EXPECT_NE("", refusalOf({bad}).code);
   std::filesystem::remove(folder / "out_1.vtp");
-  expectComplaint("out_1.vtp': there is no such file",
-                  complaintOf({folder / "out.pvtp"}, 1));
+  const Message missing = refusalOf({folder / "out.pvtp"});
+  EXPECT_EQ("no_such_file", missing.code);
+  EXPECT_EQ(folder / "out_1.vtp", wordOf(missing, "path"));
 }
 
 TEST(RankFiles, LeaveNothingIfOneCannotWrite)
