@@ -220,17 +220,17 @@ formatBytes(double bytes)
 void
 checkMemory(const std::string& what, double bytes)
 {
-  addToForecast(bytes);
   compareToAvailable(what, bytes);
+  addToForecast(bytes);
 }
 
 void
 checkMemoryOf(const std::string& task, std::size_t points, double bytes)
 {
   constexpr double small = 1e7;
-  addToForecast(bytes);
   if (bytes > small || process_limit != unlimited)
     compareToAvailable(task + " of " + std::to_string(points) + " points", bytes);
+  addToForecast(bytes);
 }
 
 } // namespace pcl_uvol

@@ -35,8 +35,8 @@ residentMemory();
 PCL_UVOL_EXPORTS std::uint64_t
 peakMemory();
 
-/** \brief The most that the process would have in use by the checks of memory so far:
- * what it had at a check, and what the work needs. */
+/** \brief The most that the process was expected to have in use by its checks of
+ * memory: what it had, and what the work needs that was not refused. */
 PCL_UVOL_EXPORTS double
 forecastMemory();
 

@@ -206,4 +206,24 @@ TEST(Memory, OnlyWhatDoesNotFitIsRefused)
   }
 }
 
+/** Of the largest work that is not refused, small work included. */
+TEST(Memory, TheForecastIsTheMostThatChecksExpect)
+{
+  if (pcl_uvol::residentMemory() == 0)
+    GTEST_SKIP() << "This system does not tell what is resident.";
+  constexpr double pages = 2e7; // that are touched later, or between blocks
+  const auto expectForecast = [&](double bytes) {
+    const double most = static_cast<double>(pcl_uvol::residentMemory()) + bytes;
+    EXPECT_GE(pcl_uvol::forecastMemory(), most);
+    EXPECT_LE(pcl_uvol::forecastMemory(), most + pages);
+  };
+  pcl_uvol::checkMemoryOf("Small work", 10, 9e6);
+  expectForecast(9e6);
+  checkMemory("A grid", 3e8);
+  expectForecast(3e8);
+  pcl_uvol::checkMemoryOf("Small work", 10, 9e6);
+  EXPECT_THROW(checkMemory("A grid", 5e18), pcl_uvol::NotEnoughMemory);
+  expectForecast(3e8);
+}
+
 } // namespace test_memory

@@ -7,6 +7,7 @@
 #include "support/messages.h"
 #include <pcl_uvol/expressions/derived_fields.h>
 #include <pcl_uvol/interpolation/field_interpolation.h>
+#include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/levelset/level_set_evolution.h>
 #include <pcl_uvol/multivariate/density_clustering.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
@@ -172,6 +173,14 @@ protected:
 };
 
 constexpr std::uint64_t little = 20000000;
+
+TEST_F(StageMemoryWithinLimits, OfReading)
+{
+  const uvol_test::TemporaryFolder folder;
+  const std::string path = folder / "in.pcd";
+  pcl_uvol::saveDataset(path, *samples_);
+  expectRefusalWithin(little / 2, [&] { pcl_uvol::loadDataset(path); });
+}
 
 TEST_F(StageMemoryWithinLimits, OfInterpolation)
 {
