@@ -65,15 +65,15 @@ public:
   using InvalidArgument::InvalidArgument;
 };
 
-/** \brief
+/** \brief Check that work fits into memory, and forecast what it needs.
  * \param what as a subject: "A grid of 9 x 9 x 9 cells"
  * \param bytes besides what the process has in use
  * \throws NotEnoughMemory with both figures if more is needed than is available */
 PCL_UVOL_EXPORTS void
 checkMemory(const std::string& what, double bytes);
 
-/** \brief checkMemory() of work on points, asked before it begins. Small work is not
- * only forecast: to ask what is available takes longer.
+/** \brief checkMemory() of work on points, asked before it begins. Small work is only
+ * forecast: to ask what is available takes longer.
  * \param task as in "Clustering"
  * \param bytes at the peak, besides the points
  * \throws NotEnoughMemory "Clustering of 1000 points needs ..." */

@@ -469,7 +469,7 @@ const MessageText warning_rows[] = {
      "{surface} has no triangles. Distances to its points are used, which are limited "
      "by the point spacing."},
     {"many_common_fields",
-     "The surfaces have {fields} fields in common. {told} of them are reported."},
+     "The surfaces have {fields} fields in common. {listed} of them are reported."},
 };
 
 } // namespace

@@ -87,6 +87,8 @@ SurfaceIntegrals::add(const SurfaceIntegrals& other, double part)
   // What a negative part takes away is no better known than what it is taken from.
   area_error += std::abs(part) * other.area_error;
   volume_error += std::abs(part) * other.volume_error;
+  undetermined_area += std::abs(part) * other.undetermined_area;
+  undetermined_volume += std::abs(part) * other.undetermined_volume;
 }
 
 SurfaceIntegrals

@@ -54,6 +54,10 @@ struct PCL_UVOL_EXPORTS SurfaceIntegrals {
   /** What bending leaves out, about. @{ */
   double area_error = 0.0, volume_error = 0.0;
   /** @} */
+  /** Of pieces whose samples do not determine area and volume: errors besides, which
+   * are no reason to take a cavity for flat. @{ */
+  double undetermined_area = 0.0, undetermined_volume = 0.0;
+  /** @} */
 
   /** \brief Add another surface, whose places are relative to the same centre.
    * \param part of it that counts */

@@ -139,9 +139,10 @@ describeShape(const SurfaceIntegrals& integrals,
 void
 describeSize(const SurfaceIntegrals& integrals, PieceMeasures& piece)
 {
-  piece.area = {integrals.area, integrals.area_error};
+  piece.area = {integrals.area, integrals.area_error + integrals.undetermined_area};
   if (piece.rims == 0)
-    piece.volume = {integrals.volume, integrals.volume_error};
+    piece.volume = {integrals.volume,
+                    integrals.volume_error + integrals.undetermined_volume};
 }
 
 /** Measures one mesh. */
@@ -282,8 +283,8 @@ private:
       if (!weak[i].areMost() || unlocated[i] <= much_without_error * areas[i])
         continue;
       SurfaceIntegrals& all = surface_.integrals[i];
-      all.area_error += all.area;
-      all.volume_error += std::abs(all.volume);
+      all.undetermined_area = all.area;
+      all.undetermined_volume = std::abs(all.volume);
     }
   }
 

@@ -5,6 +5,7 @@
 #include "isosurface/memory_need.h"
 #include "pipeline/extract_points.h"
 #include "pipeline/finish_isosurface.h"
+#include "pipeline/pipeline_input.h"
 #include "pipeline/turned_axes.h"
 #include <pcl_uvol/common/map_projection.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>
@@ -30,9 +31,10 @@ extractMembershipSurface(const Dataset& samples,
   parameters.isosurface.interpolation =
       is_smooth ? Interpolation::Fit : Interpolation::Linear;
   parameters.normals = NormalMethod::Edge;
-  const auto points = static_cast<double>(samples.cloud.width);
+  const std::size_t count = countPoints(input);
+  const auto points = static_cast<double>(count);
   checkMemoryOf("An isosurface",
-                samples.cloud.width,
+                count,
                 (sizeof(float) + samples.cloud.point_step) * points +
                     isosurfaceBytes(points, 1));
   const TurnedAxes axes(input);

@@ -167,9 +167,11 @@ describeMemory(double bound)
   const std::string name = bound > 0.0 ? "bound" : "forecast";
   const double expected = std::round(bound > 0.0 ? bound : pcl_uvol::forecastMemory());
   const auto peak = static_cast<double>(pcl_uvol::peakMemory());
+  const std::string text = "peak " + pcl_uvol::formatBytes(peak);
+  if (!(expected > 0.0)) // no step had points
+    return {"memory", text, Fact::Members{{"peak", {peak}}}};
   return {"memory",
-          name + ' ' + pcl_uvol::formatBytes(expected) + ", peak " +
-              pcl_uvol::formatBytes(peak),
+          name + ' ' + pcl_uvol::formatBytes(expected) + ", " + text,
           Fact::Members{{name, {expected}}, {"peak", {peak}}}};
 }
 

@@ -81,8 +81,8 @@ append(Facts& facts, const Facts& more)
   facts.insert(facts.end(), more.begin(), more.end());
 }
 
-/** \brief The memory of the process: the forecast before its work, or the bound that it
- * was given, and the peak so far.
+/** \brief The memory of the process so far: the most that a step was expected to need,
+ * or the bound that was given, and the peak.
  * \param bound in bytes, 0: none */
 Fact
 describeMemory(double bound = 0.0);

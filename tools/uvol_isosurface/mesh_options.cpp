@@ -24,12 +24,13 @@ MeshOptions::declare(Options& options)
               "between the cells")
       .rare();
   options
-      .number("edge-length",
-              parameters_.edge_length,
-              0.0,
-              std::numeric_limits<double>::max(),
-              "with -mesh: approximate length of edges, not less than the local "
-              "spacing; 0: the local spacing")
+      .number(
+          "edge-length",
+          parameters_.edge_length,
+          0.0,
+          std::numeric_limits<double>::max(),
+          "with -mesh: approximate length of edges; 0: the local spacing. Edges are "
+          "not made shorter than the spacing of the samples")
       .rare();
   options
       .flag("open",
