@@ -119,6 +119,25 @@ TEST(SurfaceMeasures, WallsOfCavitiesCountNegative)
   EXPECT_NEAR(-4.0 / 3.0 * M_PI, figures.pieces[1].volume.value, 1e-3);
   expectWithin(figures.isovalues[0].volume, 104.0 / 3.0 * M_PI, 1e-4);
   expectWithin(figures.isovalues[0].area, 40.0 * M_PI, 1e-4);
+
+  // Also if samples do not determine the cavity: its volume is an error besides.
+  auto vertices = std::make_shared<Dataset>(shell.toDataset());
+  const std::size_t count = shell.places.size(), outer = count - hole.places.size();
+  std::vector<float> errors(count, 0.0f);
+  std::vector<std::int32_t> support(count, 0);
+  std::fill(errors.begin() + static_cast<std::ptrdiff_t>(outer), errors.end(), 0.01f);
+  std::fill(support.begin() + static_cast<std::ptrdiff_t>(outer),
+            support.end(),
+            static_cast<std::int32_t>(IsoSupport::Bridged));
+  setField(*vertices, "edge_length", std::vector<float>(count, 0.01f));
+  setField(*vertices, "error", errors);
+  setField(*vertices, "support", support);
+  SurfaceMeasures measures;
+  measures.setInputSurface(vertices, shell.triangles);
+  const SurfaceFigures weak = measures.compute();
+  EXPECT_EQ(figures.isovalues[0].volume.value, weak.isovalues[0].volume.value);
+  EXPECT_EQ(figures.pieces[1].volume.value, weak.pieces[1].volume.value);
+  EXPECT_GT(weak.pieces[1].volume.error, 4.0 / 3.0 * M_PI);
 }
 
 TEST(SurfaceMeasures, PiecesGoByIsovalue)
