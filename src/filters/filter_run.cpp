@@ -104,7 +104,7 @@ runGuarded(vtkAlgorithm& filter,
     error = exception.asMessage().text(ParameterNames::Properties);
   }
   catch (const std::bad_alloc&) {
-    error = "There is not enough memory.";
+    error = Message("out_of_memory", {}).text();
   }
   catch (const std::exception& exception) {
     error = exception.what();

@@ -70,14 +70,13 @@ bindErrors(py::module_& module)
             error.asMessage());
     }
     catch (const std::bad_alloc&) {
-      raise(PyExc_MemoryError, Message("There is not enough memory."));
+      raise(PyExc_MemoryError, {"out_of_memory", {}});
     }
     catch (const std::length_error&) { // of a vector longer than any memory
-      raise(PyExc_MemoryError, Message("There is not enough memory."));
+      raise(PyExc_MemoryError, {"out_of_memory", {}});
     }
     catch (const std::system_error&) { // of threads that the system does not give
-      raise(PyExc_MemoryError,
-            Message("There are not enough memory or threads for it."));
+      raise(PyExc_MemoryError, {"out_of_threads", {}});
     }
   });
 }
