@@ -129,9 +129,14 @@ def judge_header(text):
                 yield text.count("\n", 0, comment.start()) + 1, found
 
 
-def judge_docstrings(text):
-    """Of modules, classes and functions; examples are left out."""
+def judge_module(text):
+    """Docstrings of modules, classes and functions without their examples, and texts of exceptions."""
     for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.Raise):
+            for string in ast.walk(node):
+                if isinstance(string, ast.Constant) and isinstance(string.value, str) and count_words(string.value) > 3:
+                    for found in judge(plain(string.value), MOST_IN_MESSAGES):
+                        yield node.lineno, found
         if isinstance(node, (ast.Module, ast.ClassDef, ast.FunctionDef)):
             words = re.sub(r"(?m)^\s*(>>>|\.\.\.).*\n(?:\s*[^\s>].*\n)*", "", (ast.get_docstring(node) or "") + "\n")
             for block in re.split(r"\n\s*\n|\n(?=\S)", words):
@@ -177,7 +182,7 @@ def list_sources(root):
         yield root / name, judge_page
     for folder, pattern, judge_file in (("docs", "*.md", judge_page), ("docs/reference", "*.schema.json", judge_schema),
                                         ("examples/notebooks", "*.ipynb", judge_notebook), ("include", "*.h", judge_public_header),
-                                        ("python/pcl_uvol", "*.py", judge_docstrings), ("tools", "*.cpp", judge_program),
+                                        ("python/pcl_uvol", "*.py", judge_module), ("python/src", "*.cpp", judge_program), ("tools", "*.cpp", judge_program),
                                         ("tools", "*.h", judge_program), ("src", "*.cpp", judge_program)):
         for path in sorted((root / folder).rglob(pattern)):
             if path not in tables:
