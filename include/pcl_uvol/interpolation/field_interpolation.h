@@ -206,10 +206,11 @@ readPlaces(const CloudView& cloud);
  * pcl_uvol::InterpolatedFields result;
  * interpolation.interpolate(queries, result);
  * \endcode
- * Exact duplicates among the samples count as one, with the median of their
- * values: of two classes the mean, which may be none. The tree and what the model keeps
- * serve further queries until samples, indices or parameters change; a cloud that
- * changes in place has to be set again. An answer depends on its query alone.
+ * Samples at exactly the same position count as one, with the median of their
+ * values. Of two values this is the mean, which may be no class. The tree and what the
+ * model keeps serve further queries until samples, indices or parameters change; a
+ * cloud that changes in place has to be set again. An answer depends on its query
+ * alone.
  *
  * Memory: about 50 bytes per sample and 8 per sample and field; the model's own; 40
  * bytes per query and field with gradients and errors. */

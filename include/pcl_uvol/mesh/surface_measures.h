@@ -108,10 +108,10 @@ struct PCL_UVOL_EXPORTS PieceMeasures {
   Measure area;
   double cap_area = 0.0; ///< of it, of the caps that close the surface
   /** Enclosed, negative for a piece that looks inwards, as the wall of a cavity does;
-   * NaN where it is open. In a periodic box a piece that the faces cut is closed by
-   * them: its volume is that of the inner or, negative, of the outer part of the box,
-   * whichever is smaller; of all pieces together it is that of the inner part. A
-   * negative volume that is no larger than its error is 0. */
+   * NaN where it is open. In a periodic box, the faces of the box close a piece that
+   * they cut. Its volume is that of the part of the box inside, or minus that of the
+   * part outside, whichever is smaller. For all pieces together it is the volume
+   * inside. A negative volume no larger than what the errors of vertices make is 0. */
   Measure volume;
   double capped_volume = 0.0; ///< of it, of pieces that caps close
   /** Centre and axes of the enclosed volume, or of the area where that is open or 0. @{
