@@ -20,6 +20,8 @@ python3 docs/site/make_reference.py "$bin" build/docs/source
 # The repository keeps the measurements beside the benchmarks, the site below benchmarks/.
 find build/docs/source -name '*.md' -exec sed -i 's#\.\./tests/benchmarks/README\.md#benchmarks/measurements.md#g
   s#\.\./tests/benchmarks/diary/#benchmarks/diary/#g' {} +
+# Links of pages to sources and examples are no pages of the site: only their text stays.
+find build/docs/source -name '*.md' -exec sed -Ei 's#\[([^]]*)\]\((\.\./)+(examples|include|src|tools)/[^)]*\)#\1#g' {} +
 # Of their links, those to pages of docs/ stay. Others go to files that are not pages of the site: only their text stays.
 sed -E 's#\]\(\.\./\.\./docs/#](@#g; s#\[([^]]*)\]\(\.\.?/[^)]*\)#\1#g; s#\]\(@#](../#g' tests/benchmarks/README.md \
   >build/docs/source/benchmarks/measurements.md
