@@ -148,6 +148,7 @@ Fact::Fact(std::string name, const std::vector<Fact>& facts)
     , key_(makeKey(name_))
 {
   std::vector<std::pair<std::string, std::string>> members;
+  members.reserve(facts.size());
   for (const Fact& fact : facts)
     members.emplace_back(fact.name_, fact.json_);
   json_ = writeObject(members);
