@@ -51,7 +51,6 @@ public:
       , curvature_(findScalar(vertices, "mean_curvature"))
       , support_(findScalar(vertices, "support"))
       , length_(findScalar(vertices, "edge_length"))
-      , cap_(findScalar(vertices, "cap"))
   {
   }
 
@@ -76,12 +75,6 @@ public:
     return true;
   }
 
-  bool
-  isOnCap(std::uint32_t vertex) const
-  {
-    return cap_ && cap_->read(vertices_.point(vertex)) != 0.0;
-  }
-
   /** Whether a vertex is between lines of samples or next to a gap. */
   bool
   isWeak(std::uint32_t vertex) const
@@ -103,7 +96,7 @@ public:
 
 private:
   const CloudView& vertices_;
-  std::optional<ScalarField> error_, curvature_, support_, length_, cap_;
+  std::optional<ScalarField> error_, curvature_, support_, length_;
 };
 
 /** Centroid and axes from the integrals over the enclosed space, or the area. */
@@ -271,7 +264,7 @@ private:
       const double rim =
           surface_.rim_lengths.empty() ? 0.0 : surface_.rim_lengths[vertex];
       const bool has_error = errors.add(source, share, rim, surface_.integrals[piece]);
-      if (errors.isOnCap(source))
+      if (surface_.corners[vertex].is_on_cap)
         return;
       without_error_ += has_error ? 0.0 : share;
       areas[piece] += share;
